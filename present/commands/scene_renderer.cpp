@@ -36,6 +36,7 @@ SceneRenderer::SceneRenderer(SharedOptions& options, const BudgetOptions& budget
         };
     }
     scene_.set_time(first.time);
+    asked_ = Asked(options.settings);
     rig_ = light_scene(options, scene_);
     camera_ = camera_at_(scene_.scene(), first.frame, first.time);
     check_interrupt();
@@ -95,18 +96,29 @@ void SceneRenderer::relight(SharedOptions& options) {
     scene_.add_lights(lights_);
 }
 
+// Chooses the tails for all lights that the scene has now, if the options leave it open.
+void SceneRenderer::choose_tails() {
+    options_.settings.tails = asked_.tails;
+    options_.settings.range_budget = asked_.range_budget;
+    kilolux::choose_tails(options_, scene_.scene());
+}
+
 void SceneRenderer::change(const SharedOptions& next, const BudgetOptions& budget,
                            const FrameRequest& want, bool relights) {
     const SharedOptions former = std::exchange(options_, next);
+    const Asked asked = asked_;
     const std::vector<SceneLight> added = scene_.added_lights();
     const std::string rig = rig_;
     try {
+        asked_ = Asked(next.settings);
         if (relights) relight(options_);
+        choose_tails();
         camera_ = camera_at_(scene_.scene(), 0, options_.time);
         renderer_->change(settings_of(budget, want, options_.time));
         renderer_->refit();
     } catch (...) {
         options_ = former;
+        asked_ = asked;
         rig_ = rig;
         if (relights) scene_.replace_lights(added);
         throw;
@@ -119,6 +131,11 @@ void SceneRenderer::set_lights(std::vector<SceneLight> lights) {
     all.insert(all.end(), lights.begin(), lights.end());
     scene_.replace_lights(std::move(all));
     lights_ = std::move(lights);
+    choose_tails();
+    RenderSettings settings = renderer_->settings();
+    settings.tails = options_.settings.tails;
+    settings.range_budget = options_.settings.range_budget;
+    renderer_->change(settings);
     renderer_->refit();
 }
 

@@ -67,12 +67,22 @@ class SceneRenderer {
     const std::string& rig_lines() const { return rig_; }  // describe the lights of the scene
 
  private:
+    // How lights without a range are to be treated, before choose_tails().
+    struct Asked {
+        Asked() = default;
+        explicit Asked(const RenderSettings& s) : tails(s.tails), range_budget(s.range_budget) {}
+        Tails tails = Tails::automatic;
+        double range_budget = kDefaultRangeBudget;
+    };
+
     void relight(SharedOptions& options);
+    void choose_tails();
     RenderSettings settings_of(const BudgetOptions& budget, const FrameRequest& want, double time);
 
     SharedOptions& options_;
     std::function<Camera(const Scene&, int, double)> camera_at_;
     AnimatedScene scene_;
+    Asked asked_;
     std::vector<SceneLight> lights_;  // of set_lights()
     std::string rig_;
     std::optional<Renderer> renderer_;
