@@ -164,7 +164,7 @@ void visit_device(const SettingVisitor& f, RenderSettings& s) {
     };
     OptionBuilder(f, "Device")
         .text({"--device", "NAME-OR-INDEX", "best",
-               "OpenCL device; also all, or indices by commas: render's sequences are shared"},
+               "OpenCL device; also all, or indices by commas: render's frames or rows are shared"},
               s.device)
         .rest()
         .value({"--max-memory", "SIZE|auto", "",

@@ -25,6 +25,20 @@ void check_budget(SharedOptions& options, const BudgetOptions& budget) {
     options.shows_environment = false;
 }
 
+RenderSettings before_white(RenderSettings settings) {
+    settings.want = radiance_only();
+    settings.background = std::make_shared<const Environment>(Environment{1, 1, {glm::vec3(1.0f)}});
+    return settings;
+}
+
+std::vector<float> coverage_of(const Frame& black, const Frame& white) {
+    std::vector<float> out;
+    for (std::size_t i = 1; i < black.radiance.size(); i += 3) {
+        out.push_back(1.0f - std::clamp(white.radiance[i] - black.radiance[i], 0.0f, 1.0f));
+    }
+    return out;
+}
+
 SceneRenderer::SceneRenderer(SharedOptions& options, const BudgetOptions& budget,
                              FirstPicture first)
     : options_(options),
@@ -40,7 +54,9 @@ SceneRenderer::SceneRenderer(SharedOptions& options, const BudgetOptions& budget
     rig_ = light_scene(options, scene_);
     camera_ = camera_at_(scene_.scene(), first.frame, first.time);
     check_interrupt();
-    renderer_.emplace(scene_.scene(), settings_of(budget, first.want, first.time));
+    const RenderSettings settings = settings_of(budget, first.want, first.time);
+    if (first.lit) kept_ = first.lit(scene_.scene(), settings);
+    renderer_.emplace(scene_.scene(), settings);
     check_interrupt();
 }
 
@@ -69,25 +85,22 @@ void SceneRenderer::expose_automatically(double time, int frame, const std::stri
                      settings.exposure, of_what, settings.exposure));
 }
 
-Frame SceneRenderer::render(double time, int frame) {
+void SceneRenderer::place(double time, int frame) {
     scene_.set_time(time);
     camera_ = camera_at_(scene_.scene(), frame, time);
+}
+
+Frame SceneRenderer::render(double time, int frame) {
+    place(time, frame);
     return renderer_->render(camera_, time);
 }
 
 std::vector<float> SceneRenderer::coverage(const Frame& picture, double time, int frame) {
     const RenderSettings wanted = renderer_->settings();
-    RenderSettings settings = wanted;
-    settings.want = radiance_only();
-    settings.background = std::make_shared<const Environment>(Environment{1, 1, {glm::vec3(1.0f)}});
-    renderer_->change(settings);
+    renderer_->change(before_white(wanted));
     const Frame white = render(time, frame);
     renderer_->change(wanted);
-    std::vector<float> out;
-    for (std::size_t i = 1; i < picture.radiance.size(); i += 3) {
-        out.push_back(1.0f - std::clamp(white.radiance[i] - picture.radiance[i], 0.0f, 1.0f));
-    }
-    return out;
+    return coverage_of(picture, white);
 }
 
 void SceneRenderer::relight(SharedOptions& options) {
