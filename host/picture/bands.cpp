@@ -9,12 +9,15 @@
 
 namespace kilolux {
 
-std::vector<Band> make_bands(int height, int rows) {
+std::vector<Band> make_bands(int height, int rows) { return make_bands(height, rows, {0, height}); }
+
+std::vector<Band> make_bands(int height, int rows, Band within) {
     assert(rows > 0 && rows % FINE_TILE == 0);
     std::vector<Band> bands;
-    for (int row = 0; row < height; row += bands.back().rows) {
+    const int end = within.first_row + within.rows;
+    for (int row = within.first_row; row < end; row += bands.back().rows) {
         const Band tile = raster_tile(height, row);
-        bands.push_back({row, std::min(rows, tile.first_row + tile.rows - row)});
+        bands.push_back({row, std::min({rows, tile.first_row + tile.rows - row, end - row})});
     }
     return bands;
 }

@@ -23,6 +23,9 @@ constexpr int kRasterRows = 4096;
 /// tile's edge. A picture that fits is one band.
 std::vector<Band> make_bands(int height, int rows);
 
+/// The same for the rows `within` a picture.
+std::vector<Band> make_bands(int height, int rows, Band within);
+
 /// The raster tile that a row lies in.
 Band raster_tile(int height, int row);
 

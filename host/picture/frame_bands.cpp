@@ -22,6 +22,18 @@ void place_planes(std::vector<T>& whole, const std::vector<T>& band, const View&
     }
 }
 
+// The rows from element `first` on, of `size`.
+template <typename T>
+void place_rows(std::vector<T>& whole, std::vector<T>&& rows, std::size_t first, std::size_t size) {
+    if (rows.size() == size) {
+        whole = std::move(rows);
+        return;
+    }
+    if (rows.empty()) return;
+    whole.resize(size);
+    std::ranges::copy(rows, whole.begin() + static_cast<std::ptrdiff_t>(first));
+}
+
 // Mean over the pixels with a surface so far; below 0 is "not counted".
 double mean_of(double whole, double whole_pixels, double band, double band_pixels) {
     if (whole_pixels + band_pixels <= 0.0 || band < 0.0) return band;
@@ -39,16 +51,17 @@ void add_samples(SampleCounts& whole, const SampleCounts& band) {
 
 }  // namespace
 
-void append_layers(std::vector<Layer>& whole, std::vector<Layer>&& band, std::size_t pixels) {
+void place_layers(std::vector<Layer>& whole, std::vector<Layer>&& band, std::size_t first,
+                  std::size_t pixels) {
     if (whole.empty()) {
         for (const Layer& layer : band) {
             whole.push_back({layer.name, layer.channels});
         }
     }
     for (std::size_t i = 0; i < band.size(); ++i) {
-        const std::size_t size = pixels * band[i].channels.size();
-        append_rows(whole[i].values, std::move(band[i].values), size);
-        append_rows(whole[i].ids, std::move(band[i].ids), size);
+        const std::size_t channels = band[i].channels.size();
+        place_rows(whole[i].values, std::move(band[i].values), first * channels, pixels * channels);
+        place_rows(whole[i].ids, std::move(band[i].ids), first * channels, pixels * channels);
     }
 }
 
@@ -95,6 +108,24 @@ void add_band(FrameStats& whole, const FrameStats& band) {
     add_samples(whole.samples, band.samples);
     whole.shaded_display = band.shaded_display;
     for (const StageTime& stage : band.stages) add_stage_time(whole.stages, stage.name, stage.ms);
+}
+
+void add_rows(FrameStats& whole, const FrameStats& rows) {
+    add_band(whole, rows);
+    whole.lights_uploaded += rows.lights_uploaded;
+    whole.frame_ms += rows.frame_ms;
+}
+
+FrameStats joined(const std::vector<FrameStats>& parts) {
+    const auto slowest = std::ranges::max_element(parts, {}, &FrameStats::frame_ms);
+    FrameStats out = *slowest;
+    for (auto part = parts.begin(); part != parts.end(); ++part) {
+        if (part != slowest) add_rows(out, *part);
+    }
+    out.stages = slowest->stages;
+    out.frame_ms = slowest->frame_ms;
+    out.build_ms = slowest->build_ms;
+    return out;
 }
 
 }  // namespace kilolux

@@ -44,7 +44,8 @@ Sample make_sample(Pipeline& p, const Shot& shot, LightInput lights, const Band&
     lights.seed = tail_seed(settings, next.number);
     Sample out{shot.camera, p.last.rows, lights, band};
     out.camera.jitter += sample_offset(next.number);
-    out.redraw = !p.samples.is_one() || tile == band.first_row;
+    out.redraw = !p.samples.is_one() || p.last.raster_tile != tile;
+    p.last.raster_tile = tile;
     out.number = next.number;
     out.needed = next.needed;
     if (p.context.shades_display()) {
@@ -70,16 +71,21 @@ void develop_band(Pipeline& p, const std::optional<DisplayTarget>& shaded, const
 }
 
 // A band's AOVs, and its surfaces for a view.
-void add_pixels(Pipeline& p, const Shot& shot, DecodedSurfaces& surfaces, Frame& frame) {
+void add_pixels(Pipeline& p, const Shot& shot, SharedPicture& picture) {
     const FrameRequest& want = p.context.settings.want;
     if (!want.pixels()) return;
     DecodedSurfaces pixels = p.reader.pixels({p.last.band, p.current_stages(), shot.camera});
     p.samples.add_counts(pixels);
     std::vector<Layer> layers;
     for (const std::string& name : want.aovs) layers.push_back(make_aov(name, pixels, shot.camera));
-    append_layers(frame.aovs, std::move(layers),
-                  static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
-    if (want.view != ViewKind::lit) place_surfaces(surfaces, std::move(pixels), frame.height);
+    Frame& frame = picture.frame;
+    const auto width = static_cast<std::size_t>(frame.width);
+    const std::scoped_lock lock(picture.placing);
+    place_layers(frame.aovs, std::move(layers), width * pixels.view.first_row,
+                 width * static_cast<std::size_t>(frame.height));
+    if (want.view != ViewKind::lit) {
+        place_surfaces(picture.surfaces, std::move(pixels), frame.height);
+    }
 }
 
 // Replaces the lit picture by the view.
@@ -97,8 +103,17 @@ void show_view(Pipeline& p, const Shot& shot, const DecodedSurfaces& surfaces, F
                                      frame.radiance, reference_light});
 }
 
-// The frame's size, and its lights on the device.
-LightInput begin(Pipeline& p, const Shot& shot, Frame& frame) {
+// Memory for the frame's pixels.
+void allocate(const Pipeline& p, bool shown_only, bool by_rows, Frame& frame) {
+    const Clock::time_point start = Clock::now();
+    p.picture.resize(frame, shown_only, by_rows);
+    const double ms = ms_since(start);
+    add_stage_time(frame.stats.stages, kAllocateStage.name, ms);
+    frame.stats.frame_ms += ms;
+}
+
+// The frame's lights on the device.
+LightInput begin(Pipeline& p, const Shot& shot, Frame& frame, FrameStats& stats) {
     const RenderContext& context = p.context;
     context.scene->make_current();
     context.scene->take_up_changes();
@@ -106,25 +121,28 @@ LightInput begin(Pipeline& p, const Shot& shot, Frame& frame) {
     p.timer = StageTimer();  // drops times of a frame that failed
     p.last.band = {};
     p.last.camera = shot.camera;
-    p.samples.begin({context.settings, shot.camera, shot.time, context.scene->scene().revisions},
-                    context.is_whole() ? shot.samples : 0);
-    const Clock::time_point allocate_start = Clock::now();
-    p.picture.begin(shot.display, frame);
-    p.timer.record_host(kAllocateStage, ms_since(allocate_start));
-    frame.stats.zero_normals = context.scene->zero_normals();
-    const LightInput lights = place_lights(p, shot, frame.stats);
-    frame.stats.frame_ms = ms_since(start);
+    const PictureKey key{context.settings, shot.camera, shot.time,
+                         context.scene->scene().revisions};
+    // OpenGL's targets hold the tile that further rows of the same picture need.
+    if (!shot.rows || !(key == p.samples.key())) p.last.raster_tile = -1;
+    p.samples.begin(key, context.is_whole() ? shot.samples : 0);
+    p.picture.begin(shot.display, frame, shot.rows.has_value());
+    stats.zero_normals = context.scene->zero_normals();
+    const LightInput lights = place_lights(p, shot, stats);
+    stats.frame_ms += ms_since(start);
     return lights;
 }
 
 // Lights -> surfaces -> lists -> visibility -> shading -> environment -> picture, sample by sample
 // of each band. Stages whose results had no room are repeated.
-void render_bands(Pipeline& p, const Shot& shot, DecodedSurfaces& surfaces, Frame& frame) {
-    const LightInput lights = begin(p, shot, frame);
+void render_bands(Pipeline& p, const Shot& shot, SharedPicture& picture, FrameStats& total) {
+    Frame& frame = picture.frame;
+    const LightInput lights = begin(p, shot, frame, total);
     FrameStages& stages = p.current_stages();
     LitBand& lit = p.last.band;
     const bool is_one = p.samples.is_one() && !stages.blends();
-    for (const Band& band : make_bands(frame.height, p.context.memory.band_rows)) {
+    const Band rows = shot.rows.value_or(Band{0, frame.height});
+    for (const Band& band : make_bands(frame.height, p.context.memory.band_rows, rows)) {
         const Clock::time_point start = Clock::now();
         FrameStats stats;
         const Measured out{p.timer, stats};
@@ -154,44 +172,81 @@ void render_bands(Pipeline& p, const Shot& shot, DecodedSurfaces& surfaces, Fram
         }
         if (!is_one) develop_band(p, {}, p.samples.mean(lit.light, p.timer), frame);
         p.picture.finish(p.timer, stats);
-        add_band(frame.stats, stats);
-        frame.stats.frame_ms += std::max(0.0, ms_since(start) - stats.build_ms);
-        add_pixels(p, shot, surfaces, frame);
+        add_band(total, stats);
+        total.frame_ms += std::max(0.0, ms_since(start) - stats.build_ms);
+        add_pixels(p, shot, picture);
         // What the pixels took is no part of frame_ms.
         p.context.gpu.programs->take_builds();
         p.timer = StageTimer();
     }
 }
 
-Frame make_frame(Pipeline& p, const Shot& shot) {
-    Frame frame;
-    DecodedSurfaces surfaces;
-    const QueueDrain drain(p.context.gpu.queue);
-    render_bands(p, shot, surfaces, frame);
-    if (const auto light = p.picture.gathered(shot.camera)) {
-        const Clock::time_point start = Clock::now();
+// What needs all rows: bloom, and views.
+void finish(Pipeline& p, const Shot& shot, SharedPicture& picture, FrameStats& stats) {
+    Frame& frame = picture.frame;
+    const Clock::time_point start = Clock::now();
+    if (const auto light = p.picture.gathered(shot.camera, frame)) {
         develop(p, *light, frame);
-        const double built_ms = frame.stats.build_ms;
-        p.picture.finish(p.timer, frame.stats);
-        frame.stats.frame_ms += ms_since(start) - (frame.stats.build_ms - built_ms);
+        const double built_ms = stats.build_ms;
+        p.picture.finish(p.timer, stats);
+        stats.frame_ms += ms_since(start) - (stats.build_ms - built_ms);
     }
-    show_view(p, shot, surfaces, frame);
+    show_view(p, shot, picture.surfaces, frame);
     if (!p.context.settings.want.radiance) frame.radiance.clear();
-    p.samples.keep();
-    return frame;
 }
 
-}  // namespace
+Frame make_frame(Pipeline& p, const Shot& shot) {
+    SharedPicture picture;
+    const QueueDrain drain(p.context.gpu.queue);
+    allocate(p, !shot.display.empty(), false, picture.frame);
+    render_bands(p, shot, picture, picture.frame.stats);
+    finish(p, shot, picture, picture.frame.stats);
+    p.samples.keep();
+    return std::move(picture.frame);
+}
 
-Frame render_frame(Pipeline& pipeline, const Shot& shot) {
+// A pipeline in which something failed is not kept.
+template <typename Call>
+auto soundly(Pipeline& pipeline, const Call& call) {
     try {
-        return make_frame(pipeline, shot);
+        return call();
     } catch (const Interrupted&) {
         throw;
     } catch (...) {
         pipeline.last.is_sound = false;
         throw;
     }
+}
+
+}  // namespace
+
+Frame render_frame(Pipeline& pipeline, const Shot& shot) {
+    return soundly(pipeline, [&] { return make_frame(pipeline, shot); });
+}
+
+std::unique_ptr<SharedPicture> begin_rows(const Pipeline& pipeline) {
+    auto picture = std::make_unique<SharedPicture>();
+    allocate(pipeline, false, true, picture->frame);
+    return picture;
+}
+
+FrameStats render_rows(Pipeline& pipeline, const Shot& shot, SharedPicture& picture) {
+    return soundly(pipeline, [&] {
+        FrameStats stats;
+        const QueueDrain drain(pipeline.context.gpu.queue);
+        render_bands(pipeline, shot, picture, stats);
+        return stats;
+    });
+}
+
+FrameStats finish_rows(Pipeline& pipeline, const Shot& shot, SharedPicture& picture) {
+    return soundly(pipeline, [&] {
+        FrameStats stats;
+        const QueueDrain drain(pipeline.context.gpu.queue);
+        pipeline.context.scene->make_current();
+        finish(pipeline, shot, picture, stats);
+        return stats;
+    });
 }
 
 }  // namespace kilolux

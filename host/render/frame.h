@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+#include <optional>
+
+#include "host/picture/shared_picture.h"
 #include "host/render/pipeline.h"
 
 namespace kilolux {
@@ -8,12 +12,18 @@ namespace kilolux {
 /// What a frame shows, and how many of its samples are made.
 struct Shot {
     Camera camera;
-    double time = 0.0;        // [s]
-    DisplayMemory display{};  // see Renderer::render_to()
-    int samples = 0;          // the first ones, whose mean it is; 0: all
+    double time = 0.0;           // [s]
+    DisplayMemory display{};     // see Renderer::render_to()
+    int samples = 0;             // the first ones, whose mean it is; 0: all
+    std::optional<Band> rows{};  // of a picture that is made by rows
 };
 
 /// Renders a frame: see Renderer::render().
 Frame render_frame(Pipeline& pipeline, const Shot& shot);
+
+/// See Renderer::begin_rows(), render_rows() and finish_rows().
+std::unique_ptr<SharedPicture> begin_rows(const Pipeline& pipeline);
+FrameStats render_rows(Pipeline& pipeline, const Shot& shot, SharedPicture& picture);
+FrameStats finish_rows(Pipeline& pipeline, const Shot& shot, SharedPicture& picture);
 
 }  // namespace kilolux

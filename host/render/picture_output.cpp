@@ -25,23 +25,29 @@ void PictureOutput::set(const RenderSettings& settings) {
     backdrop_ = backdrop_of(settings);
 }
 
-void PictureOutput::begin(DisplayMemory memory, Frame& frame) {
-    reader_.reset();
-    memory_ = memory;
+void PictureOutput::resize(Frame& frame, bool shown_only, bool by_rows) const {
     const RenderSettings& settings = context_.settings;
     const FrameRequest& want = settings.want;
     frame.width = settings.width;
     frame.height = settings.height;
     const auto pixels =
         static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
-    const bool shown_only = !memory.empty();
     if (want.display && !shown_only) frame.display.resize(4 * pixels);
-    if ((want.radiance && !shown_only) || want.view == ViewKind::difference) {
+    const bool blooms = settings.bloom > 0.0f;
+    if ((want.radiance && !shown_only) || want.view == ViewKind::difference ||
+        (by_rows && blooms)) {
         frame.radiance.resize(3 * pixels);
     }
-    if (want.bloomed && settings.bloom > 0.0f) frame.bloomed.resize(3 * pixels);
+    if (want.bloomed && blooms) frame.bloomed.resize(3 * pixels);
+}
+
+void PictureOutput::begin(DisplayMemory memory, Frame& frame, bool by_rows) {
+    reader_.reset();
+    memory_ = memory;
+    by_rows_ = by_rows;
     display_ = {reinterpret_cast<uint*>(frame.display.data()), frame.display.size() / sizeof(uint)};
-    if (blooms_at_end()) {
+    if (blooms_at_end() && !by_rows) {
+        const RenderSettings& settings = context_.settings;
         const View view = view_of(Camera{}, settings.width, settings.height);
         whole_light_.reserve(std::size_t{3} * view.stride * view.height);
     }
@@ -58,6 +64,7 @@ DisplayTarget PictureOutput::target(const View& view) {
 
 bool PictureOutput::gathers(const Radiance& light) {
     if (!blooms_at_end()) return false;
+    if (by_rows_) return true;  // it is read
     const View& view = light.view;
     const std::size_t row = sizeof(float) * view.stride;
     context_.gpu.queue.enqueueCopyBufferRect(
@@ -67,10 +74,27 @@ bool PictureOutput::gathers(const Radiance& light) {
     return true;
 }
 
-std::optional<Radiance> PictureOutput::gathered(const Camera& camera) {
+std::optional<Radiance> PictureOutput::gathered(const Camera& camera, const Frame& frame) {
     if (!blooms_at_end()) return {};
     const RenderSettings& settings = context_.settings;
-    return Radiance{whole_light_.get(), view_of(camera, settings.width, settings.height)};
+    const View view = view_of(camera, settings.width, settings.height);
+    if (by_rows_) upload(frame, view);
+    return Radiance{whole_light_.get(), view};
+}
+
+void PictureOutput::upload(const Frame& frame, const View& view) {
+    const std::size_t size = std::size_t{view.stride} * view.height;
+    whole_light_.reserve(3 * size);
+    std::vector<float> plane(size);
+    for (std::size_t c = 0; c < 3; ++c) {
+        for (std::size_t y = 0; y < view.height; ++y) {
+            const float* row = &frame.radiance[3 * y * view.width + c];
+            for (std::size_t x = 0; x < view.width; ++x) plane[y * view.stride + x] = row[3 * x];
+        }
+        context_.gpu.queue.enqueueWriteBuffer(whole_light_.get().buffer(), CL_TRUE,
+                                              sizeof(float) * c * size, sizeof(float) * size,
+                                              plane.data());
+    }
 }
 
 Radiance PictureOutput::bloom(const Radiance& light, StageTimer& timer) {

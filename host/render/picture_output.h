@@ -25,8 +25,12 @@ class PictureOutput {
     /// Takes over other settings. Throws Error.
     void set(const RenderSettings& settings);
 
-    /// Gives the frame's pictures the size that is wanted.
-    void begin(DisplayMemory memory, Frame& frame);
+    /// Gives the frame's pictures the size that is wanted. `by_rows`: bloom reads the light of a
+    /// picture that is made by rows from Frame::radiance.
+    void resize(Frame& frame, bool shown_only, bool by_rows) const;
+
+    /// Begins a frame that has its size.
+    void begin(DisplayMemory memory, Frame& frame, bool by_rows);
 
     /// Where shading puts the band's display picture.
     DisplayTarget target(const View& view);
@@ -34,8 +38,8 @@ class PictureOutput {
     /// Keeps the light of a band for bloom where bloom mixes several bands; false where it does
     /// not.
     bool gathers(const Radiance& light);
-    /// The light that gathers() kept; none where it kept nothing.
-    std::optional<Radiance> gathered(const Camera& camera);
+    /// The light that gathers() kept, or of all rows; none where bloom needs none.
+    std::optional<Radiance> gathered(const Camera& camera, const Frame& frame);
 
     /// The light with bloom.
     Radiance bloom(const Radiance& light, StageTimer& timer);
@@ -56,7 +60,10 @@ class PictureOutput {
 
  private:
     bool is_written_by_device() const { return context_.gpu.info.is_cpu && !memory_.empty(); }
-    bool blooms_at_end() const { return context_.settings.bloom > 0.0f && !context_.is_whole(); }
+    bool blooms_at_end() const {
+        return context_.settings.bloom > 0.0f && (by_rows_ || !context_.is_whole());
+    }
+    void upload(const Frame& frame, const View& view);
 
     const RenderContext& context_;
     std::optional<Bloom> bloom_;  // none where bloom is 0
@@ -70,6 +77,7 @@ class PictureOutput {
     // Of the frame.
     DisplayMemory memory_;
     std::span<uint> display_;  // Frame::display
+    bool by_rows_ = false;
 };
 
 }  // namespace kilolux

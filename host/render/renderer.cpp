@@ -103,6 +103,24 @@ Frame Renderer::render_to(std::span<uint> pixels, const Camera& camera, double t
     });
 }
 
+std::unique_ptr<SharedPicture> Renderer::begin_rows() const {
+    return kilolux::begin_rows(*pipeline_);
+}
+
+FrameStats Renderer::render_rows(SharedPicture& picture, const Camera& camera, double time,
+                                 Band rows) {
+    return in_stage("render", [&] {
+        return kilolux::render_rows(*pipeline_, {camera, time, {}, 0, rows}, picture);
+    });
+}
+
+FrameStats Renderer::finish_rows(SharedPicture& picture, const Camera& camera, double time) {
+    const Band all{0, settings().height};
+    return in_stage("render", [&] {
+        return kilolux::finish_rows(*pipeline_, {camera, time, {}, 0, all}, picture);
+    });
+}
+
 LitSurfaces Renderer::lit_surfaces() {
     require_whole(*pipeline_, "lit surfaces");
     return in_stage("lit surfaces",

@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "host/gpu/device.h"
+#include "host/picture/bands.h"
 #include "host/picture/decoded_surfaces.h"
 #include "host/picture/frame.h"
 #include "host/picture/pixel_probe.h"
+#include "host/picture/shared_picture.h"
 #include "host/render/plan/memory_plan.h"
 #include "host/render/plan/scene_plan.h"
 #include "host/render/settings.h"
@@ -79,6 +81,19 @@ class Renderer {
     /// bits than float64 and is rounded once, so the last one's picture is render()'s. A picture in
     /// bands, or of another view, is made whole.
     Frame render_to(std::span<uint> pixels, const Camera& camera, double time, int samples = 0);
+
+    /// Begins a picture that this renderer and others make by rows, with render()'s bits: renderers
+    /// of the same scene with the same settings, but for the device.
+    std::unique_ptr<SharedPicture> begin_rows() const;
+
+    /// Makes rows of such a picture and returns what it counted and measured; other renderers may
+    /// make other rows meanwhile. Rows begin at a multiple of MemoryPlan::least_rows, and end at
+    /// one or with the picture. Blocks; calls check_interrupt() as render() does.
+    FrameStats render_rows(SharedPicture& picture, const Camera& camera, double time, Band rows);
+
+    /// When all rows are made: adds what needs the whole picture, as bloom. One of the renderers
+    /// does it; picture.frame, but for its stats, then is render()'s.
+    FrameStats finish_rows(SharedPicture& picture, const Camera& camera, double time);
 
     /// Memory for render_to() that the device copies to at the full rate of its bus. Valid until it
     /// is asked for again or change().

@@ -41,6 +41,9 @@ class Samples {
     /// band; the samples that the last picture summed are kept where it has the same key.
     void begin(const PictureKey& key, int refining);
 
+    /// Of the last begin().
+    const PictureKey& key() const { return key_; }
+
     /// Begins a band.
     void begin_band();
 

@@ -84,7 +84,8 @@ const Choices& choices_of(Tails) {
         {"auto",
          fmt::format(
              "exact for at most {} such lights and no --range-budget, else bounded; "
-             "of render and view tree where bounded would lose a tenth of the light at a point",
+             "where that would lose a tenth of the light at a point, tree, or where no tree can be "
+             "(shadows, blended surfaces, forward renderers, bench) bounded with longer ranges",
              kExactTails)},
         {"exact", "they reach every pixel"},
         {"bounded", "each ends where --range-budget says"},

@@ -32,9 +32,9 @@ struct SharedOptions {
     std::shared_ptr<const Environment> shown_background;  // set by light_scene()
     bool reflections = false;  // the environment lights by prefiltered maps, not by lights
     std::shared_ptr<const PrefilteredEnvironment> maps;  // set by light_scene()
-    // The command makes pictures to look at: they can show background and reflections, and
-    // choose_tails() may take a tree for them, which a command that measures never gets unasked.
+    // The command makes pictures to look at: they can show background and reflections.
     bool shows_environment = false;
+    bool compares_renderers = false;         // with the same lights: choose_tails() takes no tree
     std::uint64_t environment_lights = 128;  // directional lights that replace it
     bool lights_given = false;               // settings.lights.count was asked for
     bool ambient_given = false;              // settings.ambient was asked for

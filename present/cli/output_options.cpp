@@ -118,8 +118,8 @@ void visit_comparison(const SettingVisitor& f, OutputOptions& o) {
                o.difference, picture_file);
     OptionBuilder(f, "Device")
         .flag("--mixed-devices", o.mixed_devices,
-              "With several devices: they may differ, and so may the bits of their frames; each "
-              "picture notes which one made it");
+              "With several devices: they may differ, and so may the bits of what they make; each "
+              "picture notes which ones made it");
 }
 
 void check_sequence(const OutputOptions& options) {

@@ -149,33 +149,13 @@ std::string tails_line(const Scene& scene, const RenderSettings& settings, bool 
                           "end where each adds {:.3g} of radiance; their sum loses up to about "
                           "{:.0f} % at a point (--aov error-bound), with --tails exact nothing",
                           settings.range_budget,
-                          100.0 * bounded_loss(scene, settings.range_budget));
+                          100.0 * bounded_loss(scene.lights, resting_bounds(scene),
+                                               settings.range_budget));
     }
     return line + fmt::format(
                       "have random ones, at least to where each adds {:.3g} of radiance: "
                       "right in the mean of --samples",
                       settings.range_budget);
-}
-
-// Chooses a tree for many lights without a range where bounded ranges would lose much of their
-// light. Commands that measure keep bounded ranges, with a warning.
-void choose_tails(SharedOptions& options, const Scene& scene) {
-    constexpr double kMostLost = 0.1;
-    RenderSettings& s = options.settings;
-    const Tails tails = tails_for(scene.lights, s.tails, s.range_budget);
-    if (s.tails != Tails::automatic || tails != Tails::bounded) return;
-    if (s.range_budget != kDefaultRangeBudget) return;
-    const double lost = bounded_loss(scene, s.range_budget);
-    if (lost <= kMostLost) return;
-    if (options.shows_environment && s.renderer == RendererKind::deferred &&
-        s.shadows == Shadows::off && !has_blended_surfaces(scene)) {
-        s.tails = Tails::tree;
-        return;
-    }
-    warn(fmt::format(
-        "{}: the ranges that lights without one get cut up to about {:.0f} % of their light; "
-        "--tails exact keeps it",
-        options.scene, 100.0 * lost));
 }
 
 Environment opened_environment(const std::string& name) {
@@ -290,6 +270,27 @@ std::string light_scene(SharedOptions& options, AnimatedScene& scene) {
            from_around + (metal ? " (a studio's room, as most of the surface is metal)" : "") +
            tails_line(scene.scene(), options.settings, finds_tails) +
            choose_tone_curve(options, scene.scene());
+}
+
+void choose_tails(SharedOptions& options, const Scene& scene) {
+    RenderSettings& s = options.settings;
+    const bool bounded = tails_for(scene.lights, s.tails, s.range_budget) == Tails::bounded;
+    if (s.tails != Tails::automatic || !bounded || s.range_budget != kDefaultRangeBudget) return;
+    if (bounded_loss(scene.lights, resting_bounds(scene), s.range_budget) <= kMostLost) return;
+    const bool takes_tree = s.renderer == RendererKind::deferred && s.shadows == Shadows::off &&
+                            !options.compares_renderers && !has_blended_surfaces(scene);
+    if (takes_tree) {
+        s.tails = Tails::tree;
+        return;
+    }
+    s.tails = Tails::bounded;
+    s.range_budget = budget_of_sum(scene.lights, resting_bounds(scene), s.range_budget);
+    const double lost = bounded_loss(scene.lights, resting_bounds(scene), s.range_budget);
+    if (lost <= kMostLost) return;
+    warn(fmt::format(
+        "{}: the ranges that lights without one get cut up to about {:.0f} % of their light; "
+        "--tails exact keeps it",
+        options.scene, 100.0 * lost));
 }
 
 void measure_swarm(SharedOptions& options) {

@@ -16,6 +16,11 @@ AnimatedScene open_animated_scene(const SharedOptions& options);
 /// that describe the lights.
 std::string light_scene(SharedOptions& options, AnimatedScene& scene);
 
+/// Where the tails are automatic and bounded ranges would lose much of the light of the lights
+/// without one: chooses a tree, or longer ranges where a tree cannot light the picture. Warns where
+/// these are too many. light_scene() calls it; call it again for other lights.
+void choose_tails(SharedOptions& options, const Scene& scene);
+
 /// Makes a command that measures many lights use the swarm where no rig was asked for.
 void measure_swarm(SharedOptions& options);
 

@@ -18,10 +18,11 @@ namespace {
 // (grid.fine_per_octave and the rest of want).
 void count_members(SharedOptions& options) {
     [[maybe_unused]] auto& [scene, load, settings, rig, environment, background, shown_background,
-                            reflections, maps, shows_environment, environment_lights, lights_given,
-                            ambient_given, tone_curve_given, shadow_rays_given,
-                            takes_automatic_exposure, automatic_exposure, takes_automatic_samples,
-                            camera, time, show_error, quiet, verbose] = options;
+                            reflections, maps, shows_environment, compares_renderers,
+                            environment_lights, lights_given, ambient_given, tone_curve_given,
+                            shadow_rays_given, takes_automatic_exposure, automatic_exposure,
+                            takes_automatic_samples, camera, time, show_error, quiet, verbose] =
+        options;
     [[maybe_unused]] auto& [load_time, allow_outside_paths, load_memory, clips, variant, strict,
                             line_width] = load;
     [[maybe_unused]] auto& [renderer, width, height, lights, tails, range_budget, seed, tree_share,
@@ -163,7 +164,7 @@ void visit_device(const SettingVisitor& f, RenderSettings& s) {
     };
     OptionBuilder(f, "Device")
         .text({"--device", "NAME-OR-INDEX", "best",
-               "OpenCL device; also all, or indices by commas: render's sequences are shared"},
+               "OpenCL device; also all, or indices by commas: render's frames or rows are shared"},
               s.device)
         .rest()
         .value({"--max-memory", "SIZE|auto", "",

@@ -97,6 +97,7 @@ std::vector<std::array<int, 3>> parse_grids(const std::string& option, const std
 }
 
 void add_bench_options(CLI::App& command, BenchOptions& options) {
+    options.shared.compares_renderers = true;
     add_shared_options(command, options.shared);
     add_sweep_options(command, options.axes);
     add_mode_options(command, options);

@@ -16,14 +16,6 @@
 namespace kilolux {
 namespace {
 
-// Empty where the file lacks the note.
-std::string note_of(const ImageLayout& layout, const std::string& name) {
-    for (const auto& [attribute, value] : layout.attributes) {
-        if (attribute == "kilolux:" + name) return std::get<std::string>(value);
-    }
-    return "";
-}
-
 // Refuses a file whose `what` is not the one that was asked for.
 void expect(const std::filesystem::path& file, const char* what, const std::string& seen,
             const std::string& asked) {
@@ -69,9 +61,9 @@ bool is_made(const WantedPicture& wanted) {
     const ImageLayout& layout = (*found)->layout();
     expect(wanted.file, "size", size_text(layout.width, layout.height),
            size_text(wanted.width, wanted.height));
-    if (!holds_notes(wanted.file)) return true;
-    expect(wanted.file, "command", note_of(layout, "command"), wanted.command);
-    expect(wanted.file, "time", note_of(layout, "time"), wanted.time);
+    const auto noted = [&](const char* name) { return note_in(wanted.file, layout, name); };
+    expect(wanted.file, "command", noted("command"), wanted.command);
+    expect(wanted.file, "time", noted("time"), wanted.time);
     return true;
 }
 

@@ -33,7 +33,7 @@ struct WantedVideo {
 
 WantedVideo wanted_video(const RenderOptions& options);
 
-/// Whether the file holds this picture, by its size and, where its format keeps them, its notes. A
+/// Whether the file holds this picture, by its size and its notes. A
 /// file that cannot be read counts as none, with a note. Throws Error for another picture.
 bool is_made(const WantedPicture& wanted);
 

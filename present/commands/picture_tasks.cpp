@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <functional>
 #include <memory>
 #include <thread>
 #include <utility>
@@ -16,9 +17,9 @@
 #include "host/base/text.h"
 #include "present/cli/frame_summary.h"
 #include "present/cli/option_values.h"
+#include "present/commands/devices/shared_tasks.h"
 #include "present/commands/made_picture.h"
 #include "present/commands/picture_advice.h"
-#include "present/commands/shared_tasks.h"
 #include "present/image/comparison.h"
 #include "present/video/video_file.h"
 
@@ -70,9 +71,12 @@ auto on_device(const Call& call) {
     }
 }
 
+// Makes the task's frame and alpha.
+using MakeFrame = std::function<void(RenderedPicture&)>;
+
 // Renders a task's picture; returns its record.
 FrameRecord render_task(const RenderOptions& options, SceneRenderer& pictures,
-                        RenderedPicture& picture) {
+                        RenderedPicture& picture, const MakeFrame& make) {
     const OutputOptions& out = options.output;
     const PictureTask& task = picture.task;
     std::optional<Reference> reference;
@@ -81,8 +85,8 @@ FrameRecord render_task(const RenderOptions& options, SceneRenderer& pictures,
         require_reference_size(task.reference, settings.width, settings.height);
         reference.emplace(task.reference);
     }
+    make(picture);
     Frame& frame = picture.frame;
-    frame = on_device([&] { return pictures.render(task.time, task.frame); });
     check_interrupt();
     FrameRecord record{task.frame, task.time, output_name(task.file), frame.stats, std::nullopt};
     if (reference) {
@@ -90,9 +94,6 @@ FrameRecord render_task(const RenderOptions& options, SceneRenderer& pictures,
     }
     if (!task.difference.empty()) picture.difference = reference->difference(frame);
     if (options.shared.show_error) frame.display = reference->error_map(frame).rgba;
-    if (options.has_alpha) {
-        picture.alpha = on_device([&] { return pictures.coverage(frame, task.time, task.frame); });
-    }
     note_layers(options, frame, task.file);
     picture.notes = notes_of(options, pictures, record);
     return record;
@@ -121,7 +122,13 @@ void make_picture(const Job& job, SceneRenderer& pictures, DeviceShare& share, s
     if (job.tasks.is_done(picture->task)) {
         return job.queue.deliver(i, [&job] { job.files.skip(); });
     }
-    FrameRecord record = render_task(job.options, pictures, *picture);
+    FrameRecord record = render_task(job.options, pictures, *picture, [&](RenderedPicture& made) {
+        const PictureTask& task = made.task;
+        made.frame = on_device([&] { return pictures.render(task.time, task.frame); });
+        if (!job.options.has_alpha) return;
+        made.alpha =
+            on_device([&] { return pictures.coverage(made.frame, task.time, task.frame); });
+    });
     if (i == job.first) advise(pictures, record);
     if (job.measures_devices) pictures.fill_limits(record);
     ++share.pictures;
@@ -145,25 +152,16 @@ void make_pictures(const Job& job, SceneRenderer& pictures, DeviceShare& share) 
     }
 }
 
-// Runs a device's part of the job. `left`: devices that have not failed.
-template <typename Run>
-void run_share(SharedTasks& queue, std::atomic<std::size_t>& left, DeviceShare& share,
-               const Run& run) noexcept {
-    try {
-        run();
-    } catch (const UsageError&) {
-        queue.fail(std::current_exception());
-    } catch (const Interrupted&) {
-        queue.fail(std::current_exception());
-    } catch (const std::exception& error) {
-        share.failure = error.what();
-        if (--left == 0) return queue.fail(std::current_exception());
-        warn(fmt::format("device {} is left out: {}", share.device, error.what()));
+// Names every kind of device that made rows of the picture.
+void note_devices(ImageNotes& notes, const std::vector<DeviceShare>& shares) {
+    std::vector<std::string> kinds;
+    for (const DeviceShare& share : shares) {
+        const std::string kind = share.info.name + ", " + share.info.version;
+        if (share.rows > 0 && std::ranges::count(kinds, kind) == 0) kinds.push_back(kind);
     }
-}
-
-std::string device_text(const std::string& choice) {
-    return fmt::format("{} ({})", choice, describe(choose_device(choice)).name);
+    for (auto& [name, value] : notes.strings) {
+        if (name == "device") value = fmt::format("{}", fmt::join(kinds, "; "));
+    }
 }
 
 // "0,2" as indices. Throws UsageError for another text.
@@ -244,26 +242,48 @@ MadePictures render_tasks(const RenderOptions& options, const PictureTasks& task
     SharedTasks queue(first, tasks.size(), kAhead * count);
     const bool has_stats = !options.output.stats.empty();
     const Job job{options, tasks, files, queue, first, has_stats && count == 1};
-    std::vector<DeviceShare> shares(count);
+    std::vector<std::string> devices = more_devices;
+    devices.insert(devices.begin(), options.shared.settings.device);
+    devices.resize(count);
+    std::vector<DeviceShare> shares(1);
+    if (count > 1) shares = shares_of(devices);
     std::atomic<std::size_t> left = count;
+    const auto fail = [&queue](std::exception_ptr failure) { queue.fail(std::move(failure)); };
     std::vector<std::jthread> threads;
-    shares[0].device = device_text(options.shared.settings.device);
-    for (std::size_t i = 1; i < count; ++i) shares[i].device = device_text(more_devices[i - 1]);
     for (std::size_t i = 1; i < count; ++i) {
         threads.emplace_back([&, i] {
-            run_share(queue, left, shares[i], [&] {
+            run_share(shares[i], left, fail, [&] {
                 SharedOptions own = options.shared;
-                own.settings.device = more_devices[i - 1];
+                own.settings.device = devices[i];
                 SceneRenderer renderer(own, options.budget, start);
                 make_pictures(job, renderer, shares[i]);
             });
         });
     }
-    run_share(queue, left, shares[0], [&] { make_pictures(job, pictures, shares[0]); });
+    run_share(shares[0], left, fail, [&] { make_pictures(job, pictures, shares[0]); });
     threads.clear();  // waits for them
     queue.rethrow();
     if (count == 1) shares.clear();
     return {files.finish(), std::move(shares)};
+}
+
+MadePictures render_by_rows(const RenderOptions& options, const PictureTask& task,
+                            SceneRenderer& pictures, RowHelpers& helpers) {
+    PictureFiles files(options, 1, pictures.renderer());
+    RenderedPicture picture;
+    picture.task = task;
+    MadePictures made;
+    FrameRecord record = render_task(options, pictures, picture, [&](RenderedPicture& out) {
+        PictureByRows by_rows = helpers.render(pictures, options.has_alpha, task.time, task.frame);
+        out.frame = std::move(by_rows.frame);
+        out.alpha = std::move(by_rows.alpha);
+        made.shares = std::move(by_rows.shares);
+    });
+    note_devices(picture.notes, made.shares);
+    advise(pictures, record);
+    files.add(std::move(picture), std::move(record));
+    made.written = files.finish();
+    return made;
 }
 
 }  // namespace kilolux

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "present/commands/devices/picture_by_rows.h"
 #include "present/commands/picture_files.h"
 #include "present/commands/scene_renderer.h"
 
@@ -35,13 +36,6 @@ class PictureTasks {
 /// differ.
 std::vector<std::string> devices_of(const std::string& choice, bool mixed);
 
-/// What a device of several has done.
-struct DeviceShare {
-    std::string device;  // its index and name
-    std::size_t pictures = 0;
-    std::string failure{};  // why it was left out; empty: it was not
-};
-
 struct MadePictures {
     WrittenPictures written;
     std::vector<DeviceShare> shares;  // of several devices
@@ -54,5 +48,9 @@ struct MadePictures {
 MadePictures render_tasks(const RenderOptions& options, const PictureTasks& tasks,
                           std::size_t first, SceneRenderer& pictures, const FirstPicture& start,
                           const std::vector<std::string>& more_devices);
+
+/// Renders and writes a single picture, which several devices make by rows.
+MadePictures render_by_rows(const RenderOptions& options, const PictureTask& task,
+                            SceneRenderer& pictures, RowHelpers& helpers);
 
 }  // namespace kilolux

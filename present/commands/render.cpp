@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -98,21 +99,17 @@ void report_pictures(const RenderOptions& options, SceneRenderer& pictures,
     const OutputOptions& out = options.output;
     const WrittenPictures& written = made.written;
     if (!out.stats.empty()) {
-        write_json(out.stats, pictures.stats(written.last, false),
-                   written.log ? &*written.log : nullptr);
+        nlohmann::ordered_json stats = pictures.stats(written.last, false);
+        if (!made.shares.empty()) stats["devices"] = shares_json(made.shares);
+        write_json(out.stats, stats, written.log ? &*written.log : nullptr);
     }
     const Renderer& renderer = pictures.renderer();
     note(frame_summary(
         renderer.scene(), renderer.device(), written.last,
         {written.count, renderer.gpu().programs->build_seconds(), options.shared.verbose}));
-    std::string failures;
-    for (const DeviceShare& share : made.shares) {
-        note(fmt::format("device {}: {} pictures", share.device, share.pictures));
-        if (share.failure.empty()) continue;
-        failures += fmt::format("{}device {} failed: {}", failures.empty() ? "" : "; ",
-                                share.device, share.failure);
-    }
-    if (!failures.empty()) failures += "; the other devices made every picture";
+    if (!made.shares.empty()) note(share_lines(made.shares));
+    std::string failures = failures_of(made.shares);
+    if (!failures.empty()) failures += "; the other devices made the rest";
     if (!written.first_failure.empty()) {
         if (!failures.empty()) warn(failures);
         throw ComparisonFailed(written.first_failure);
@@ -126,8 +123,6 @@ std::vector<std::string> take_devices(RenderOptions& options) {
     std::vector<std::string> devices = devices_of(device, options.output.mixed_devices);
     device = devices.front();
     devices.erase(devices.begin());
-    refuse_if(!devices.empty() && !options.output.frames,
-              "--device: several devices make the frames of a sequence; --frames is not given");
     return devices;
 }
 
@@ -139,6 +134,40 @@ void share_memory(RenderSettings& settings, std::size_t devices) {
         bytes = static_cast<std::uint64_t>(kMost * static_cast<double>(available_memory_bytes()));
     }
     bytes /= devices;
+}
+
+// Renders and writes the pictures from `begin` on.
+void render_from(RenderOptions& options, const PictureTasks& tasks, std::size_t begin,
+                 const std::vector<std::string>& more_devices) {
+    const OutputOptions& out = options.output;
+    const PictureTask first = tasks[begin];
+    const CameraMotion motion(options.shared, out);
+    const auto camera = [&motion](const Scene& scene, int frame, double time) {
+        return motion.at(scene, frame, time);
+    };
+    FirstPicture start{request_of(options, options.shared.settings.want), first.time, first.frame,
+                       camera};
+    RowHelpers* helpers = nullptr;  // of a single picture
+    if (!more_devices.empty() && tasks.size() - begin == 1) {
+        start.lit = [&](const Scene& scene, const RenderSettings& settings) {
+            auto made = std::make_shared<RowHelpers>(more_devices);
+            made->start(scene, settings);
+            helpers = made.get();
+            return made;
+        };
+    }
+    if (!more_devices.empty()) share_memory(options.shared.settings, 1 + more_devices.size());
+    SceneRenderer pictures(options.shared, options.budget, start);
+    note(pictures.rig_lines());  // before the frames, which may take minutes
+    if (options.shared.automatic_exposure) expose_automatically(options, pictures);
+    if (helpers != nullptr && !has_rows_to_share(pictures.renderer())) {
+        note("device  OpenGL lights or blends surfaces: one device makes the whole picture");
+        helpers = nullptr;
+    }
+    report_pictures(options, pictures,
+                    helpers != nullptr
+                        ? render_by_rows(options, first, pictures, *helpers)
+                        : render_tasks(options, tasks, begin, pictures, start, more_devices));
 }
 
 void run_render(RenderOptions& options) {
@@ -162,18 +191,7 @@ void run_render(RenderOptions& options) {
     check_light_memory(options.shared.lights_given ? options.shared.settings.lights.count : 0,
                        options.shared.settings);
     warn_of_exposure(options);
-    const CameraMotion motion(options.shared, out);
-    const auto camera = [&motion](const Scene& scene, int frame, double time) {
-        return motion.at(scene, frame, time);
-    };
-    const FirstPicture start{request_of(options, options.shared.settings.want), first.time,
-                             first.frame, camera, std::nullopt};
-    if (!more_devices.empty()) share_memory(options.shared.settings, 1 + more_devices.size());
-    SceneRenderer pictures(options.shared, options.budget, start);
-    note(pictures.rig_lines());  // before the frames, which may take minutes
-    if (options.shared.automatic_exposure) expose_automatically(options, pictures);
-    const MadePictures made = render_tasks(options, tasks, begin, pictures, start, more_devices);
-    report_pictures(options, pictures, made);
+    render_from(options, tasks, begin, more_devices);
 }
 
 void add_render_options(CLI::App& command, RenderOptions& options) {

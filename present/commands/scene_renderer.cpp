@@ -25,6 +25,20 @@ void check_budget(SharedOptions& options, const BudgetOptions& budget) {
     options.shows_environment = false;
 }
 
+RenderSettings before_white(RenderSettings settings) {
+    settings.want = radiance_only();
+    settings.background = std::make_shared<const Environment>(Environment{1, 1, {glm::vec3(1.0f)}});
+    return settings;
+}
+
+std::vector<float> coverage_of(const Frame& black, const Frame& white) {
+    std::vector<float> out;
+    for (std::size_t i = 1; i < black.radiance.size(); i += 3) {
+        out.push_back(1.0f - std::clamp(white.radiance[i] - black.radiance[i], 0.0f, 1.0f));
+    }
+    return out;
+}
+
 SceneRenderer::SceneRenderer(SharedOptions& options, const BudgetOptions& budget,
                              FirstPicture first)
     : options_(options),
@@ -36,10 +50,13 @@ SceneRenderer::SceneRenderer(SharedOptions& options, const BudgetOptions& budget
         };
     }
     scene_.set_time(first.time);
+    asked_ = Asked(options.settings);
     rig_ = light_scene(options, scene_);
     camera_ = camera_at_(scene_.scene(), first.frame, first.time);
     check_interrupt();
-    renderer_.emplace(scene_.scene(), settings_of(budget, first.want, first.time));
+    const RenderSettings settings = settings_of(budget, first.want, first.time);
+    if (first.lit) kept_ = first.lit(scene_.scene(), settings);
+    renderer_.emplace(scene_.scene(), settings);
     check_interrupt();
 }
 
@@ -68,25 +85,22 @@ void SceneRenderer::expose_automatically(double time, int frame, const std::stri
                      settings.exposure, of_what, settings.exposure));
 }
 
-Frame SceneRenderer::render(double time, int frame) {
+void SceneRenderer::place(double time, int frame) {
     scene_.set_time(time);
     camera_ = camera_at_(scene_.scene(), frame, time);
+}
+
+Frame SceneRenderer::render(double time, int frame) {
+    place(time, frame);
     return renderer_->render(camera_, time);
 }
 
 std::vector<float> SceneRenderer::coverage(const Frame& picture, double time, int frame) {
     const RenderSettings wanted = renderer_->settings();
-    RenderSettings settings = wanted;
-    settings.want = radiance_only();
-    settings.background = std::make_shared<const Environment>(Environment{1, 1, {glm::vec3(1.0f)}});
-    renderer_->change(settings);
+    renderer_->change(before_white(wanted));
     const Frame white = render(time, frame);
     renderer_->change(wanted);
-    std::vector<float> out;
-    for (std::size_t i = 1; i < picture.radiance.size(); i += 3) {
-        out.push_back(1.0f - std::clamp(white.radiance[i] - picture.radiance[i], 0.0f, 1.0f));
-    }
-    return out;
+    return coverage_of(picture, white);
 }
 
 void SceneRenderer::relight(SharedOptions& options) {
@@ -95,18 +109,29 @@ void SceneRenderer::relight(SharedOptions& options) {
     scene_.add_lights(lights_);
 }
 
+// Chooses the tails for all lights that the scene has now, if the options leave it open.
+void SceneRenderer::choose_tails() {
+    options_.settings.tails = asked_.tails;
+    options_.settings.range_budget = asked_.range_budget;
+    kilolux::choose_tails(options_, scene_.scene());
+}
+
 void SceneRenderer::change(const SharedOptions& next, const BudgetOptions& budget,
                            const FrameRequest& want, bool relights) {
     const SharedOptions former = std::exchange(options_, next);
+    const Asked asked = asked_;
     const std::vector<SceneLight> added = scene_.added_lights();
     const std::string rig = rig_;
     try {
+        asked_ = Asked(next.settings);
         if (relights) relight(options_);
+        choose_tails();
         camera_ = camera_at_(scene_.scene(), 0, options_.time);
         renderer_->change(settings_of(budget, want, options_.time));
         renderer_->refit();
     } catch (...) {
         options_ = former;
+        asked_ = asked;
         rig_ = rig;
         if (relights) scene_.replace_lights(added);
         throw;
@@ -119,6 +144,11 @@ void SceneRenderer::set_lights(std::vector<SceneLight> lights) {
     all.insert(all.end(), lights.begin(), lights.end());
     scene_.replace_lights(std::move(all));
     lights_ = std::move(lights);
+    choose_tails();
+    RenderSettings settings = renderer_->settings();
+    settings.tails = options_.settings.tails;
+    settings.range_budget = options_.settings.range_budget;
+    renderer_->change(settings);
     renderer_->refit();
 }
 

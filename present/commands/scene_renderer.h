@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -27,7 +28,17 @@ struct FirstPicture {
     /// The camera of a frame at a time [s]; none: that of the options.
     std::function<Camera(const Scene& scene, int frame, double time)> camera{};
     std::optional<Scene> made{};  // replaces the scene that the options name
+    /// Called before the renderer is built, for whoever builds another one for its scene meanwhile:
+    /// what it returns is kept as long as the scene.
+    std::function<std::shared_ptr<void>(const Scene& scene, const RenderSettings& settings)> lit{};
 };
+
+/// The settings of the same picture before a white background.
+RenderSettings before_white(RenderSettings settings);
+
+/// The share of each pixel that opaque surfaces cover, 0 to 1, from pictures before a black and a
+/// white background.
+std::vector<float> coverage_of(const Frame& black, const Frame& white);
 
 /// A scene and the renderer of its pictures, by the options of a command line.
 class SceneRenderer {
@@ -40,11 +51,13 @@ class SceneRenderer {
     /// Sets the exposure of --exposure auto by the picture at `time`; prints it, with `of_what`.
     void expose_automatically(double time, int frame = 0, const std::string& of_what = "");
 
+    /// Scene and camera of the picture at `time` [s].
+    void place(double time, int frame);
+
     /// The picture at `time` [s].
     Frame render(double time, int frame = 0);
 
-    /// The share of each pixel that opaque surfaces cover, 0 to 1, from the same picture before a
-    /// white background. `frame` is the picture before a black one.
+    /// coverage_of() of the last render(), by the same picture before a white background.
     std::vector<float> coverage(const Frame& picture, double time, int frame);
 
     /// Takes `next` in place of the present options, but for the scene. `relights`: takes its
@@ -67,14 +80,25 @@ class SceneRenderer {
     const std::string& rig_lines() const { return rig_; }  // describe the lights of the scene
 
  private:
+    // How lights without a range are to be treated, before choose_tails().
+    struct Asked {
+        Asked() = default;
+        explicit Asked(const RenderSettings& s) : tails(s.tails), range_budget(s.range_budget) {}
+        Tails tails = Tails::automatic;
+        double range_budget = kDefaultRangeBudget;
+    };
+
     void relight(SharedOptions& options);
+    void choose_tails();
     RenderSettings settings_of(const BudgetOptions& budget, const FrameRequest& want, double time);
 
     SharedOptions& options_;
     std::function<Camera(const Scene&, int, double)> camera_at_;
     AnimatedScene scene_;
+    Asked asked_;
     std::vector<SceneLight> lights_;  // of set_lights()
     std::string rig_;
+    std::shared_ptr<void> kept_;  // of FirstPicture::lit; goes before the scene
     std::optional<Renderer> renderer_;
     Camera camera_;
     std::optional<DeviceLimits> limits_;

@@ -38,17 +38,15 @@ bool take_kept_rig(SharedOptions& shared, const CLI::App& command, StateFile& fi
     return shared.rig != Rig::automatic;
 }
 
-struct StartRig {
-    Rig asked = Rig::automatic;
-    bool is_kept = false;
-};
-
-// The kept state; values of the command line replace the kept ones.
+// The kept state; values of the command line replace the kept ones. `asked`: before light_scene().
 ViewState start_state(const ViewOptions& options, const CLI::App& command, StateFile& file,
-                      const StartRig& rig) {
+                      const SharedOptions& asked, bool keeps_rig) {
     ViewState state;
-    state.rig = rig.asked;
+    state.rig = asked.rig;
     state.settings = options.shared.settings;
+    state.settings.tails =
+        asked.settings.tails;  // the window chooses anew where they are automatic
+    state.settings.range_budget = asked.settings.range_budget;
     state.settings.background = options.shared.shown_background;
     state.settings.reflections = options.shared.maps;
     state.settings.want.aovs.clear();
@@ -65,7 +63,7 @@ ViewState start_state(const ViewOptions& options, const CLI::App& command, State
     const Rig kept = kept_state(file).rig;
     const bool is_swarm = options.shared.rig == Rig::automatic || options.shared.rig == Rig::swarm;
     const bool of_other_rig = kept != Rig::automatic && kept != Rig::swarm;
-    const bool rig_decides = !rig.is_kept && (!is_swarm || of_other_rig);
+    const bool rig_decides = !keeps_rig && (!is_swarm || of_other_rig);
     return file.load(state, [&](const std::string& name) {
         const bool of_rig = name == "--lights" || name == "--ambient";
         return is_given(command, name) || name == "--rig" || (rig_decides && of_rig) ||
@@ -98,7 +96,7 @@ void run_view(ViewOptions& options, const CLI::App& command) {
     AnimatedScene scene = open_animated_scene(options.shared);
     note(light_scene(options.shared, scene));
     session.shared = options.shared;
-    session.state = start_state(options, command, file, {session.asked.rig, keeps_rig});
+    session.state = start_state(options, command, file, session.asked, keeps_rig);
     const Window context({16, 16}, "Kilolux", false);
     Window window(session.state.window_size, "Kilolux - " + options.shared.scene, true);
     window.show();

@@ -17,6 +17,7 @@
 #include "host/base/system/atomic_write.h"
 #include "host/base/version.h"
 #include "host/images/images.h"
+#include "present/image/image_notes.h"
 
 namespace kilolux {
 namespace {
@@ -25,13 +26,17 @@ struct Format {
     const char* extension;
     const char* plugin;  // OpenImageIO's name
     ImageMeaning meaning;
+    NoteForm notes;
 };
 
 constexpr std::array kFormats = {
-    Format{".exr", "openexr", ImageMeaning::linear}, Format{".hdr", "hdr", ImageMeaning::linear},
-    Format{".png", "png", ImageMeaning::display},    Format{".jpg", "jpeg", ImageMeaning::display},
-    Format{".jpeg", "jpeg", ImageMeaning::display},  Format{".tif", "tiff", ImageMeaning::display},
-    Format{".tiff", "tiff", ImageMeaning::display}};
+    Format{".exr", "openexr", ImageMeaning::linear, NoteForm::attributes},
+    Format{".hdr", "hdr", ImageMeaning::linear, NoteForm::comments},
+    Format{".png", "png", ImageMeaning::display, NoteForm::attributes},
+    Format{".jpg", "jpeg", ImageMeaning::display, NoteForm::description},
+    Format{".jpeg", "jpeg", ImageMeaning::display, NoteForm::description},
+    Format{".tif", "tiff", ImageMeaning::display, NoteForm::description},
+    Format{".tiff", "tiff", ImageMeaning::display, NoteForm::description}};
 
 const Format& format_of(const std::filesystem::path& file) {
     const std::string extension = lower(file.extension().string());
@@ -243,8 +248,6 @@ bool is_png(const std::filesystem::path& file) {
 
 bool holds_alpha(const std::filesystem::path& file) { return is_png(file) || holds_layers(file); }
 
-bool holds_notes(const std::filesystem::path& file) { return holds_alpha(file); }
-
 bool holds_layers(const std::filesystem::path& file) {
     return std::string_view(format_of(file).plugin) == "openexr";
 }
@@ -261,16 +264,22 @@ std::vector<unsigned char> encode_image(const std::filesystem::path& file, const
         add_channels(layout, {"R", "G", "B"}, SampleType::float32);
     }
     layout.attributes.emplace_back("Software", "kilolux " + version());
-    for (const auto& [name, text] : notes.strings) {
-        layout.attributes.emplace_back("kilolux:" + name, text);
-    }
+    add_notes(layout, notes, format_of(file).notes);
     if (display) return encode_display(file, layout, frame, options);
     const bool has_more = !options.alpha.empty() || !frame.aovs.empty() || options.half_colour;
     if (holds_layers(file) && has_more) {
         return encode(file, layout, exr_pixels(frame, layout, options), layout.pixel_bytes());
     }
     const auto* bytes = reinterpret_cast<const unsigned char*>(frame.radiance.data());
-    return encode(file, layout, {bytes, frame.radiance.size() * sizeof(float)}, 3 * sizeof(float));
+    std::vector<unsigned char> out =
+        encode(file, layout, {bytes, frame.radiance.size() * sizeof(float)}, 3 * sizeof(float));
+    if (format_of(file).notes == NoteForm::comments) insert_comments(out, notes);
+    return out;
+}
+
+std::string note_in(const std::filesystem::path& file, const ImageLayout& layout,
+                    const std::string& name) {
+    return note_in(file, layout, name, format_of(file).notes);
 }
 
 void check_can_write_image(const std::filesystem::path& file) {

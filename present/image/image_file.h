@@ -13,6 +13,8 @@
 
 namespace kilolux {
 
+struct ImageLayout;
+
 /// The meaning of a file's pixels: sRGB for display (PNG, JPEG, TIFF) or linear scene light (EXR,
 /// HDR).
 enum class ImageMeaning { display, linear };
@@ -31,9 +33,6 @@ bool is_png(const std::filesystem::path& file);
 /// Whether the format can hold the covered share of pixels: PNG and EXR.
 bool holds_alpha(const std::filesystem::path& file);
 
-/// Whether files of the format can be read for ImageNotes: PNG and EXR.
-bool holds_notes(const std::filesystem::path& file);
-
 /// Whether the format keeps named channels beside the colour: EXR.
 bool holds_layers(const std::filesystem::path& file);
 
@@ -46,9 +45,13 @@ inline constexpr int kPngLevel = 2;
 inline constexpr const char* kExrCompressions[] = {"none", "rle", "zips", "zip", "piz"};
 inline constexpr const char* kExrCompression = "zip";
 
+/// The note of that name in a file that open_image() read as `layout`; empty where it has none.
+std::string note_in(const std::filesystem::path& file, const ImageLayout& layout,
+                    const std::string& name);
+
 /// A file's notes about its picture.
 struct ImageNotes {
-    /// Written as "kilolux:<name>": scene, lights, renderer, ... in this order.
+    /// Written as "kilolux:<name>" (NoteForm): scene, lights, renderer, ... in this order.
     std::vector<std::pair<std::string, std::string>> strings;
     std::optional<Camera> camera;  // becomes worldToCamera and worldToNDC
 };

@@ -11,7 +11,7 @@
 #include "host/base/formats/gbuffer_layout.h"
 #include "host/lighting/deferred_lighting.h"
 #include "host/render/lights/light_rows.h"
-#include "host/scene/lights/light_ranges.h"
+#include "host/scene/lights/bounded_loss.h"
 #include "host/stages/lists/build_clusters.h"
 #include "host/stages/lists/count_lights.h"
 #include "kernels/shared/evaluate_modes.h"
@@ -146,6 +146,21 @@ KernelFeatures features_of(const HostSurfaces& surfaces, const LightRows& rows, 
     return features;
 }
 
+// A box in the world around all that a perspective camera sees at these depths.
+Box box_of(const Camera& camera, double aspect, const DepthRange& range) {
+    const double tangent = std::tan(0.5 * camera.y_fov);
+    Box out;
+    for (const double z : {double{range.first}, double{range.last}}) {
+        for (const double x : {-z, z}) {
+            for (const double y : {-z, z}) {
+                const glm::dvec3 in_view(x * aspect * tangent, y * tangent, -z);
+                out.add(camera.position + camera.world_from_view * in_view);
+            }
+        }
+    }
+    return out;
+}
+
 // Rows of `channels` planes with a stride, interleaved without it.
 template <typename T>
 std::vector<T> without_padding(const std::vector<T>& planes, const View& view,
@@ -180,7 +195,9 @@ GBufferLighting::Lit GBufferLighting::light(const HostSurfaces& surfaces, const 
     Camera camera = seen_by;
     camera.z_near = range.first;
     const View view = view_of(camera, surfaces.width, surfaces.height);
-    fill_missing_ranges(lights, tails_for(lights, Tails::automatic, kDefaultRangeBudget));
+    const Box box = box_of(camera, double(surfaces.width) / surfaces.height, range);
+    fill_missing_ranges(lights, tails_for(lights, Tails::automatic, kDefaultRangeBudget),
+                        budget_of_sum(lights, box));
     const LightRows rows = make_light_rows(lights, camera.position);
     const KernelFeatures features = features_of(surfaces, rows, shading_);
     FullPlanes planes(surfaces, view, features);

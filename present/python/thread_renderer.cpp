@@ -168,8 +168,6 @@ void ThreadRenderer::change(RendererOptions next, std::optional<Lights> lights) 
             next.shared.settings.ambient = present.settings.ambient;
             next.shared.settings.lights.count = present.settings.lights.count;
             next.shared.environment = present.environment;
-            Tails& tails = next.shared.settings.tails;
-            if (tails == Tails::automatic) tails = present.settings.tails;
             next.shared.reflections = present.reflections;
             next.shared.maps = present.maps;
             next.shared.background = present.background;

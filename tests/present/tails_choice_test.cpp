@@ -8,10 +8,10 @@
 #include <optional>
 #include <tuple>
 
-#include "host/scene/export/export_scene.h"
+#include "host/scene/lights/bounded_loss.h"
 #include "present/cli/options.h"
 #include "present/cli/scene_choice.h"
-#include "tests/support/box_scene.h"
+#include "tests/support/lit_hall.h"
 #include "tests/support/messages.h"
 #include "tests/support/render_fixture.h"
 #include "tests/support/temporary_folder.h"
@@ -19,33 +19,16 @@
 namespace kilolux {
 namespace {
 
-// A hall along z, lit but for its last metres.
-Scene hall(int count, float intensity) {
-    Scene scene = box_scene({40.0, 8.0, 400.0}, true);
-    for (int i = 0; i < count; ++i) {
-        const double t = (i + 0.5) / count;
-        SceneLight light;
-        light.position = {36.0 * std::fmod(7.3 * i / 11.0, 1.0) - 18.0, std::fmod(i / 5.0, 1.0),
-                          -200.0 + 370.0 * t};
-        light.intensity = glm::vec3(intensity);
-        scene.lights.push_back(light);
-    }
-    return scene;
-}
-
 class TailsChoice : public testing::Test {
  protected:
-    void write(const Scene& scene) {
-        for (const ExportedFile& part : export_scene(scene, folder_ / "hall.glb").files) {
-            write_text(folder_ / part.name, std::string(part.bytes.begin(), part.bytes.end()));
-        }
-    }
+    void write(const Scene& scene) { write_scene(scene, folder_ / "hall.glb"); }
 
     // Options as `kilolux render hall.glb` with more words has them; the lines of its lights.
     std::string open(const std::string& more) {
         CLI::App app;
         options_ = {};
         options_.shows_environment = true;
+        options_.compares_renderers = compares_renderers_;
         add_shared_options(app, options_);
         app.parse((folder_ / "hall.glb").string() + " -q --ambient 0 --resolution 48,27 " + more);
         AnimatedScene opened = open_animated_scene(options_);
@@ -64,6 +47,7 @@ class TailsChoice : public testing::Test {
 
     TemporaryFolder folder_;
     SharedOptions options_;
+    bool compares_renderers_ = false;
     std::optional<Scene> scene_;
 };
 
@@ -74,7 +58,7 @@ TEST_F(TailsChoice, AutomaticOnesKeepNineTenthsOfTheLightWhereverOneLooks) {
                                            {129, 60.0f},  {1000, 0.15f},  {1000, 10.0f},
                                            {1000, 60.0f}, {1000, 2000.0f}};
     for (const auto& [count, intensity] : cases) {
-        write(hall(count, intensity));
+        write(lit_hall(count, intensity));
         for (const std::string& camera : {end, middle}) {
             const double exact = light("--tails exact" + camera);
             ASSERT_GT(exact, 0.0);
@@ -85,7 +69,7 @@ TEST_F(TailsChoice, AutomaticOnesKeepNineTenthsOfTheLightWhereverOneLooks) {
 }
 
 TEST_F(TailsChoice, TheLineNamesWhatTheSumLoses) {
-    write(hall(129, 2000.0f));
+    write(lit_hall(129, 2000.0f));
     EXPECT_TRUE(contains(open(""),
                          "tails   bounded (automatic): 129 lights without a range end where each "
                          "adds 0.00391 of radiance; their sum loses up to about "))
@@ -96,41 +80,64 @@ TEST_F(TailsChoice, TheLineNamesWhatTheSumLoses) {
         << open("--tails bounded --range-budget 1");
 }
 
-// A tree lights no blended surfaces.
-TEST_F(TailsChoice, BlendedSurfacesKeepBoundedOnesWithAWarning) {
-    Scene scene = hall(200, 1.0f);
-    scene.materials[0].alpha_mode = AlphaMode::blend;
-    write(scene);
+// What a tree cannot light: shadows, forward renderers, blended surfaces, sweeps of renderers.
+class LongerRanges : public TailsChoice,
+                     public testing::WithParamInterface<std::tuple<int, const char*>> {};
+
+TEST_P(LongerRanges, KeepNineTenthsOfTheSum) {
+    const auto& [count, option] = GetParam();
+    write(lit_hall(count, 1.0f));
+    const std::string camera = " --camera-position 0,0,180 --camera-focal-point 0,0,200 ";
+    const double exact = light("--tails exact" + camera + option);
     testing::internal::CaptureStderr();
-    open("");
-    const std::string warning = testing::internal::GetCapturedStderr();
-    EXPECT_EQ(options_.settings.tails, Tails::automatic);
-    EXPECT_TRUE(contains(warning, "cut up to about")) << warning;
+    EXPECT_NEAR(light(camera + option) / exact, 1.0, 0.1);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    EXPECT_EQ(options_.settings.tails, Tails::bounded);
+    EXPECT_LT(options_.settings.range_budget, kDefaultRangeBudget);
+    const double lost =
+        bounded_loss(scene_->lights, resting_bounds(*scene_), options_.settings.range_budget);
+    EXPECT_LE(lost, kMostLost);
+    EXPECT_GT(
+        bounded_loss(scene_->lights, resting_bounds(*scene_), 2.0 * options_.settings.range_budget),
+        kMostLost)
+        << "ranges are no longer than they must be";
 }
 
-// What a tree cannot light keeps bounded ranges.
-class KeptRanges : public TailsChoice,
-                   public testing::WithParamInterface<std::tuple<int, const char*>> {};
+INSTANTIATE_TEST_SUITE_P(All, LongerRanges,
+                         testing::Combine(testing::Values(129, 1000),
+                                          testing::Values("--shadows exact",
+                                                          "--renderer forward-plus")));
 
-TEST_P(KeptRanges, AreSaidOnceAlsoWithQuiet) {
-    const auto& [count, option] = GetParam();
-    write(hall(count, 1.0f));
+TEST_F(TailsChoice, BlendedSurfacesGetLongerRanges) {
+    Scene scene = lit_hall(200, 1.0f);
+    scene.materials[0].alpha_mode = AlphaMode::blend;
+    write(scene);
+    EXPECT_TRUE(contains(open(""), "tails   bounded (automatic)")) << open("");
+    EXPECT_LE(bounded_loss(scene_->lights, resting_bounds(*scene_), options_.settings.range_budget),
+              kMostLost);
+}
+
+TEST_F(TailsChoice, SweepsOfRenderersGetLongerRanges) {
+    write(lit_hall(200, 1.0f));
+    compares_renderers_ = true;
+    open("");
+    EXPECT_EQ(options_.settings.tails, Tails::bounded);
+    EXPECT_LE(bounded_loss(scene_->lights, resting_bounds(*scene_), options_.settings.range_budget),
+              kMostLost);
+}
+
+// Ranges end where more lights would reach a point than a pixel can evaluate; then it is said.
+TEST_F(TailsChoice, RangesOfTooManyLightsStayShortWithAWarning) {
+    write(lit_hall(50'000, 1e-4f));
     testing::internal::CaptureStderr();
-    const std::string line = open(option);
-    open(option);
+    const std::string line = open("--shadows exact");
     const std::string written = testing::internal::GetCapturedStderr();
-    EXPECT_EQ(options_.settings.tails, Tails::automatic);
     EXPECT_TRUE(contains(line, "tails   bounded (automatic)")) << line;
     const std::string warning = "kilolux: warning: " + options_.scene +
                                 ": the ranges that lights without one get cut up to about ";
     EXPECT_TRUE(written.starts_with(warning)) << written;
     EXPECT_EQ(std::ranges::count(written, '\n'), 1) << written;
 }
-
-INSTANTIATE_TEST_SUITE_P(All, KeptRanges,
-                         testing::Combine(testing::Values(129, 1000),
-                                          testing::Values("--shadows exact",
-                                                          "--renderer forward-plus")));
 
 }  // namespace
 }  // namespace kilolux

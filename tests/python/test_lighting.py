@@ -41,6 +41,19 @@ def test_lights_the_surfaces_of_a_picture_as_the_renderer_does(frame, lights):
     assert lit.evaluated[~drawn].max(initial=0) == 0 and lit.evaluated.max() <= len(positions)
 
 
+def test_many_lights_without_a_range_keep_their_light(frame):
+    """At most 128 such lights reach all pixels."""
+    place = np.random.default_rng(6).uniform((-4, 0, -4), (4, 3, 4), (200, 3))
+    lighting = kilolux.GBufferLighting()
+
+    def lit(*groups):
+        return lighting.light(gbuffer_of(frame), [kilolux.Lights(p, 0.01) for p in groups]).radiance
+
+    glow = lit(place[:0])
+    all_light = (lit(place[:100]) - glow).sum() + (lit(place[100:]) - glow).sum()
+    assert (lit(place) - glow).sum() == pytest.approx(all_light, rel=0.1)
+
+
 def test_counts_are_those_of_distances(frame, lights):
     """covering: within the range, from positions made here of depth and camera."""
     lit = kilolux.GBufferLighting(shading="lambert").light(gbuffer_of(frame), lights)

@@ -30,6 +30,26 @@ def test_changes_give_the_pictures_of_new_renderers():
     assert not same(first, renderer.render())
 
 
+@pytest.mark.parametrize("count", [129, 200])
+def test_automatic_tails_follow_lights_and_shadows(count):
+    lights = kilolux.Lights([[2.0 * (i % 20) - 19.0, 2.0, 2.0 * (i // 20) - 9.0] for i in range(count)], 0.01)
+    options = {"resolution": (64, 48), "ambient": 0, "lights": lights}
+
+    glow = kilolux.render("grid", **{**options, "lights": []}).radiance.sum()  # the scene's own
+
+    def light(**more):
+        return kilolux.render("grid", **options, **more).radiance.sum() - glow
+
+    renderer = kilolux.Renderer("grid", resolution=(64, 48), ambient=0, lights=kilolux.Lights([[0, 2, 0]], 1.0))
+    renderer.change(lights=lights)
+    for shadows in ("off", "exact", "off"):
+        renderer.change(shadows=shadows)
+        exact = light(tails="exact", shadows=shadows)
+        assert light(tails="bounded", shadows=shadows) < 0.8 * exact, "the lights are chosen badly for this test"
+        assert renderer.render().radiance.sum() - glow == pytest.approx(exact, rel=0.1)
+        assert light(shadows=shadows) == pytest.approx(exact, rel=0.1)
+
+
 def test_time_of_a_picture():
     renderer = kilolux.Renderer("grid", **SMALL)
     later = renderer.render(time=1.5)

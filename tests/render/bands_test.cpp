@@ -6,6 +6,7 @@
 
 #include "host/base/error.h"
 #include "host/base/system/interrupt.h"
+#include "host/picture/frame_bands.h"
 #include "host/render/plan/memory_plan.h"
 #include "kernels/shared/cluster_grid.h"
 #include "tests/support/render_fixture.h"
@@ -34,6 +35,7 @@ std::uint64_t least_memory(const Scene& scene, RenderSettings settings) {
 
 void expect_same_frame(const Frame& banded, const Frame& whole) {
     EXPECT_EQ(banded.radiance, whole.radiance);
+    EXPECT_EQ(banded.bloomed, whole.bloomed);
     EXPECT_EQ(banded.display, whole.display);
     ASSERT_EQ(banded.aovs.size(), whole.aovs.size());
     for (std::size_t i = 0; i < whole.aovs.size(); ++i) {
@@ -120,6 +122,45 @@ TEST(Bands, ChangeNoBitWithEveryLightAtEveryPixel) {
     RenderSettings settings = small_settings(150, 131, 40);
     settings.renderer = RendererKind::deferred_all;
     expect_same_in_bands(make_generated_scene("plain"), settings);
+}
+
+// Two renderers take turns with rows of one picture, not in order.
+void expect_same_by_rows(const Scene& scene, const RenderSettings& settings) {
+    Renderer one(scene, settings), two(scene, settings);
+    const Camera camera = first_camera(scene);
+    const Frame whole = one.render(camera, 0.5);
+    const std::unique_ptr<SharedPicture> picture = two.begin_rows();
+    const std::vector<FrameStats> parts = {one.render_rows(*picture, camera, 0.5, {64, 67}),
+                                           two.render_rows(*picture, camera, 0.5, {0, 16}),
+                                           two.render_rows(*picture, camera, 0.5, {16, 48})};
+    FrameStats second = parts[1];
+    add_rows(second, parts[2]);
+    const FrameStats end = one.finish_rows(*picture, camera, 0.5);
+    picture->frame.stats = joined({parts[0], second});
+    const FrameStats& stats = picture->frame.stats;
+    expect_same_frame(picture->frame, whole);
+    EXPECT_EQ(stats.lights_given, whole.stats.lights_given);
+    EXPECT_EQ(stats.frame_ms, std::max(parts[0].frame_ms, second.frame_ms)) << "of the slowest";
+    EXPECT_EQ(end.frame_ms > 0.0, settings.bloom > 0.0f);
+}
+
+TEST(Bands, RowsOfTwoRenderersMakeThePicture) {
+    const Scene scene = make_generated_scene("grid");
+    RenderSettings settings = small_settings(150, 131, 400);
+    settings.want.counts = true;
+    settings.want.aovs = {"depth", "normal", "light-count", "cluster"};
+    for (const Geometry geometry : {Geometry::compute, Geometry::ids}) {
+        settings.geometry = geometry;
+        expect_same_by_rows(scene, settings);
+    }
+    settings.samples = 3;
+    settings.bloom = 0.3f;
+    settings.want.bloomed = true;
+    expect_same_by_rows(scene, settings);
+    settings.samples = 1;
+    settings.want.aovs.clear();
+    settings.want.view = ViewKind::lights;
+    expect_same_by_rows(scene, settings);
 }
 
 // A camera that sees some rows sees in them what the whole picture's camera sees there.

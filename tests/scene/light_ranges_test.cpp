@@ -81,11 +81,11 @@ TEST(LightRanges, ManyFarLightsLoseMostOfTheirLight) {
         light.intensity = glm::vec3(1.2f);
         scene.lights.push_back(light);
     }
-    EXPECT_GT(bounded_loss(scene), 0.5);
+    EXPECT_GT(bounded_loss(scene.lights, resting_bounds(scene)), 0.5);
     for (SceneLight& light : scene.lights) light.intensity *= 1e6f;
-    EXPECT_LT(bounded_loss(scene), 0.01) << "ranges beyond the scene";
+    EXPECT_LT(bounded_loss(scene.lights, resting_bounds(scene)), 0.01) << "ranges beyond the scene";
     for (SceneLight& light : scene.lights) light.range = 1.0f;
-    EXPECT_EQ(bounded_loss(scene), 0.0) << "they have their own";
+    EXPECT_EQ(bounded_loss(scene.lights, resting_bounds(scene)), 0.0) << "they have their own";
 }
 
 TEST(LightRanges, AutomaticIsExactForFewAndHeedsABudget) {

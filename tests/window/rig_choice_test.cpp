@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/support/lit_hall.h"
 #include "tests/window/scripted_window.h"
 
 namespace kilolux {
@@ -12,9 +13,10 @@ namespace {
 constexpr int kWidth = 700, kHeight = 420;  // [pixel] of the window
 
 // The picture that the command line renders with these options, in the window's part for the scene.
-ScenePart rendered(const fs::path& file, std::vector<std::string> options) {
-    std::vector<std::string> words = {"render",  "plain", "-q",         "--resolution",
-                                      "340,420", "-o",    file.string()};
+ScenePart rendered(const fs::path& file, std::vector<std::string> options,
+                   const std::string& scene = "plain") {
+    std::vector<std::string> words = {"render",  scene, "-q",         "--resolution",
+                                      "340,420", "-o",  file.string()};
     words.insert(words.end(), options.begin(), options.end());
     const ChildResult result = run_kilolux(words);
     EXPECT_EQ(result.code, 0) << result.err;
@@ -96,6 +98,31 @@ TEST(WindowRig, IsKeptUnlessTheCommandLineSaysSomethingOfLights) {
     EXPECT_EQ(play(other.shot("rig"), {"--rig", "headlight"}), kept);
     EXPECT_EQ(scene_part(folder / "rig.png").values,
               rendered(folder / "rendered.png", {"--rig", "headlight"}).values);
+}
+
+// Shadows need other tails than a picture without them: see choose_tails().
+TEST(WindowRig, AutomaticTailsFollowTheShadows) {
+    const TemporaryFolder folder;
+    const fs::path hall = folder / "hall.glb";
+    write_scene(lit_hall(200, 1.0f), hall);
+    Script script(folder);
+    script.shot("start").line("choose shadows exact").line("away").shot("exact");
+    script.line("choose shadows off").line("away").shot("off");
+    auto words = words_of(script);
+    words[1] = hall.string();
+    words.emplace_back("--fresh");
+    const ChildResult result = view_in_display({}, words);
+    ASSERT_EQ(result.code, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    const auto expect = [&](const std::string& name, const std::vector<std::string>& options) {
+        const fs::path file = folder / "rendered.png";
+        EXPECT_EQ(scene_part(folder / (name + ".png")).values,
+                  rendered(file, options, hall.string()).values)
+            << name;
+    };
+    expect("start", {});
+    expect("exact", {"--shadows", "exact"});
+    expect("off", {});
 }
 
 // Actions during the replacement of lights wait for it.

@@ -28,7 +28,7 @@ ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& where) {
     }
     for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
         const std::string name = attribute.name().string();
-        if (name.starts_with("kilolux:")) {
+        if (name.starts_with("kilolux:") || name == "ImageDescription") {
             out.attributes.emplace_back(name, attribute.get_string());
         }
     }

@@ -205,6 +205,7 @@ MemoryPlan plan_memory(const Scene& scene, const RenderSettings& settings, const
     }
     MemoryPlan out;
     out.band_rows = settings.band_rows > 0 ? std::clamp(settings.band_rows, lowest, rows) : rows;
+    out.least_rows = lowest;
     out.bytes = need.fixed + static_cast<Bytes>(rows) * row;
     constexpr Bytes kHeldShare = 4;  // finished pictures get one part in four of what is left
     out.held_bytes = (limit - out.bytes) / kHeldShare;

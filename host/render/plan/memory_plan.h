@@ -13,6 +13,7 @@ namespace kilolux {
 /// How a picture is made within the available memory.
 struct MemoryPlan {
     int band_rows = 0;               // rows made at once: a multiple of FINE_TILE
+    int least_rows = 0;              // the fewest that can be made at once, likewise
     std::uint64_t bytes = 0;         // what that takes, light lists aside
     std::uint64_t held_bytes = 0;    // that finished pictures may take until they are written
     std::uint64_t device_bytes = 0;  // that device buffers may take: GrowingBuffer's budget

@@ -22,7 +22,8 @@ inline constexpr double kDefaultRangeBudget = 1.0 / 256.0;
 /// most
 ///               a stated share; spots are as with exact
 ///   automatic   exact for at most kExactTails lights, unless a budget is given; else bounded. The
-///               number does not depend on the device: nor does the picture.
+///               number does not depend on the device: nor does the picture. The program asks
+///               budget_of_sum() and has_blended_surfaces() first: see its choose_tails().
 enum class Tails { automatic, exact, bounded, stochastic, tree };
 
 /// Default error of a node of the light tree: see kernels/tails/tree_cut.h.

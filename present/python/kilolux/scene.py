@@ -61,7 +61,7 @@ class Lights:
 
     def _made(self) -> Any:
         values = self._values()
-        bad = {name: ~np.isfinite(array).reshape(len(array), -1).all(axis=1)
+        bad = {name: ~np.isfinite(array).all(axis=1)
                for name, array in values.items() if name in ("position", "intensity")}
         bad["range"] = ~(values["range"] >= 0)
         for name, rows in bad.items():

@@ -31,10 +31,31 @@ void take_lit(RenderSettings& settings, const SharedOptions& lit) {
 
 }  // namespace
 
+bool SceneLights::fit(const ViewState& state) const {
+    if (state.rig != rig_) return false;
+    const RenderSettings &now = state.settings, &lit = lit_.settings;
+    if (now.tails != Tails::automatic) return true;
+    if (asked_.settings.tails != Tails::automatic) return false;
+    return lit.tails == Tails::automatic ||
+           (now.renderer == lit.renderer && now.shadows == lit.shadows);
+}
+
+RenderSettings SceneLights::settings_of(const ViewState& state) const {
+    RenderSettings out = state.settings;
+    if (out.tails != Tails::automatic || !fit(state)) return out;
+    out.tails = lit_.settings.tails;
+    out.range_budget = lit_.settings.range_budget;
+    return out;
+}
+
 void SceneLights::replace(RenderWorker& worker, const ViewState& state,
                           const RenderSettings& settings) {
-    SharedOptions asked = with_rig(asked_, state.rig);
-    asked.settings.renderer = state.settings.renderer;
+    for (SharedOptions* options : {&asked_, &lit_}) {  // a failure is not tried again
+        options->settings.tails = state.settings.tails;
+        options->settings.renderer = state.settings.renderer;
+        options->settings.shadows = state.settings.shadows;
+    }
+    const SharedOptions asked = with_rig(asked_, state.rig);
     relit_ = Awaited(worker.ask([&scene = scene_, asked, settings](Renderer& renderer) {
         Relit out{asked, {}};
         RenderSettings next = settings;
@@ -43,6 +64,8 @@ void SceneLights::replace(RenderWorker& worker, const ViewState& state,
             scene.replace_lights({});
             out.line = light_scene(out.options, scene);
             take_lit(next, out.options);
+            next.tails = out.options.settings.tails;
+            next.range_budget = out.options.settings.range_budget;
             renderer.change(next);
             renderer.refit();
             return out;

@@ -19,6 +19,12 @@ class SceneLights {
     SceneLights(AnimatedScene& scene, SharedOptions asked, SharedOptions lit, Rig rig)
         : scene_(scene), asked_(std::move(asked)), lit_(std::move(lit)), rig_(rig) {}
 
+    /// Whether the lights and their tails are those of the state's rig, renderer and shadows.
+    bool fit(const ViewState& state) const;
+    /// The state's settings, with the tails that light_scene() chose where the state leaves it to
+    /// them.
+    RenderSettings settings_of(const ViewState& state) const;
+
     /// Asks for the lights of the state's rig; `settings`: of the next picture.
     void replace(RenderWorker& worker, const ViewState& state, const RenderSettings& settings);
     /// Takes the new lights, and writes the settings that depend on them to the state. After a

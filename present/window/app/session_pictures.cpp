@@ -62,7 +62,7 @@ PictureRequest ViewSession::wanted() const {
 
 PictureRequest ViewSession::wanted(double scale) const {
     PictureRequest out;
-    out.settings = state_.settings;
+    out.settings = lights_.settings_of(state_);
     const BoxTarget target = area();
     out.settings.width = std::max(static_cast<int>(scale * target.width), kSmallestEdge);
     out.settings.height = std::max(static_cast<int>(scale * target.height), kSmallestEdge);
@@ -75,7 +75,7 @@ PictureRequest ViewSession::wanted(double scale) const {
 
 void ViewSession::request_picture() {
     if (is_resting()) return;
-    if (state_.rig != lights_.rig() && !lights_.are_changing()) {
+    if (!lights_.fit(state_) && !lights_.are_changing()) {
         lights_.replace(*worker_, state_, wanted().settings);
     }
     if (lights_.are_changing()) return;  // its settings belong to lights that are not there yet

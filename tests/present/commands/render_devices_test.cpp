@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sequences that several devices make: PoCL, asked for twice, is two equal devices.
+// Sequences and pictures that several devices make: PoCL, asked for twice, is two equal devices.
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include <signal.h>
 #include <sys/wait.h>
@@ -37,6 +40,14 @@ class RenderDevices : public testing::Test {
         return run_child(all);
     }
 
+    // One picture.
+    std::vector<std::string> picture_words(const fs::path& output,
+                                           const std::string& devices) const {
+        std::vector<std::string> all = words(output, devices, "", "150,131");
+        all.erase(std::ranges::find(all, "--frames"), std::ranges::find(all, "--device"));
+        return all;
+    }
+
     TemporaryFolder one_, two_;
 };
 
@@ -52,6 +63,57 @@ TEST_F(RenderDevices, MakeTheFilesOfOne) {
     for (const std::string& name : names_in(one_)) {
         EXPECT_EQ(text_of_file(two_ / name), text_of_file(one_ / name)) << name;
     }
+}
+
+// One picture: its rows go to both devices.
+TEST_F(RenderDevices, MakeThePictureOfOne) {
+    const std::vector<std::pair<const char*, std::vector<std::string>>> cases = {
+        {"a.png", {"--samples", "20"}},
+        {"b.png", {"--bloom", "0.3", "--exposure", "auto", "--geometry", "ids"}},
+        {"c.png", {"--background", "none"}},
+        {"d.exr", {"--aov", "depth,normal,light-count"}},
+        {"e.exr", {"--samples", "auto", "--aov", "sample-count"}},
+        {"f.png", {"--show", "overdraw", "--geometry", "ids"}},
+        {"g.png", {"--show", "difference"}}};
+    for (const auto& [name, options] : cases) {
+        SCOPED_TRACE(name);
+        std::vector<std::string> one = picture_words(one_ / name, "0");
+        std::vector<std::string> two = picture_words(two_ / name, "all");
+        for (std::vector<std::string>* all : {&one, &two})
+            all->insert(all->end(), options.begin(), options.end());
+        ASSERT_EQ(run_child(one).code, 0);
+        const ChildResult result = run_child(two);
+        ASSERT_EQ(result.code, 0) << result.err;
+        for (const char* device : {"\ndevice 0 (", "\ndevice 1 ("}) {
+            EXPECT_TRUE(contains(result.err, device)) << result.err;
+        }
+        EXPECT_FALSE(contains(result.err, ": 131 rows in ")) << "one made all\n" << result.err;
+        EXPECT_TRUE(text_of_file(two_ / name) == text_of_file(one_ / name));
+    }
+}
+
+// The statistics are those of the slowest device, with each device's part.
+TEST_F(RenderDevices, TellWhatEachDidOfAPicture) {
+    std::vector<std::string> words = picture_words(two_ / "a.png", "0,1");
+    words.insert(words.end(), {"--samples", "20", "--stats", (two_ / "s.json").string()});
+    const ChildResult result = run_child(words);
+    ASSERT_EQ(result.code, 0) << result.err;
+    const auto stats = nlohmann::json::parse(text_of_file(two_ / "s.json"));
+    const auto& devices = stats.at("devices");
+    ASSERT_EQ(devices.size(), 2u);
+    EXPECT_EQ(devices[0].at("rows").get<int>() + devices[1].at("rows").get<int>(), 131);
+    const double first = devices[0].at("rows_ms"), second = devices[1].at("rows_ms");
+    const double frame = stats.at("frame_ms");
+    EXPECT_GE(frame, std::max(first, second));
+    EXPECT_LT(frame, first + second);
+}
+
+TEST_F(RenderDevices, MakeAPictureByOneWhereOpenGlLights) {
+    std::vector<std::string> words = picture_words(two_ / "a.png", "0,1");
+    words.insert(words.end(), {"--renderer", "forward-plus", "--geometry", "ids"});
+    const ChildResult result = run_child(words);
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_TRUE(contains(result.err, "one device makes the whole picture")) << result.err;
 }
 
 // So many frames that the second device, which begins later, has its part.

@@ -211,6 +211,42 @@ TEST(Render, SequencesInShardsThatGoOnWhereTheyStopped) {
     EXPECT_TRUE(contains(nothing.err, "nothing to render")) << nothing.err;
 }
 
+// --skip-existing keeps a file of any format, and refuses one of another command by its note.
+TEST(Render, FilesOfEveryFormatKnowTheirCommand) {
+    const TemporaryFolder folder;
+    for (const std::string& extension : image_extensions()) {
+        const fs::path file = folder / ("picture" + extension);
+        const auto made = [&](const std::string& seed) {
+            const std::vector<std::string> words = {"--skip-existing",
+                                                    "--lights",
+                                                    "33",
+                                                    "--light-seed",
+                                                    seed,
+                                                    "--light-intensity",
+                                                    "2.25",
+                                                    "--grid",
+                                                    "8,8,2",
+                                                    "--range-budget",
+                                                    "0.0123456789",
+                                                    "--camera-position",
+                                                    "1.25,2.5,3.75"};
+            return run_kilolux(small_render(file, words));
+        };
+        const ChildResult first = made("8");
+        ASSERT_EQ(first.code, 0) << first.err;
+        const std::string bytes = text_of_file(file);
+        const ChildResult again = made("8");
+        EXPECT_EQ(again.code, 0) << again.err;
+        EXPECT_TRUE(contains(again.err, "nothing to render")) << extension << again.err;
+        const ChildResult other = made("9");
+        EXPECT_EQ(other.code, 1) << extension;
+        EXPECT_TRUE(contains(other.err, file.string() + ": holds another picture: its command is"))
+            << other.err;
+        EXPECT_EQ(text_of_file(file), bytes);
+        EXPECT_EQ(read_image(file).width, 48) << "the notes leave a file that can be read";
+    }
+}
+
 // A glTF file with a light, a camera, and a triangle that moves.
 void write_moving_scene(const fs::path& file) {
     const char* text = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1,2]}],

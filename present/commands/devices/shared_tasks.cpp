@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/commands/shared_tasks.h"
+#include "present/commands/devices/shared_tasks.h"
 
 #include <utility>
 

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/image/image_notes.h"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+namespace kilolux {
+namespace {
+
+// Readers of HDR files take lines of 127 bytes, or of fewer than 512, at once.
+constexpr std::size_t kCommentBytes = 100;
+constexpr const char* kComment = "# ";
+constexpr const char* kContinued = "#+";  // goes on with the comment before it
+
+std::string key_of(const std::string& name) { return "kilolux:" + name; }
+
+// A line for each note.
+std::string text_of(const ImageNotes& notes) {
+    std::string out;
+    for (const auto& [name, text] : notes.strings) {
+        std::string line = key_of(name) + "=" + text;
+        std::ranges::replace(line, '\n', ' ');
+        out += (out.empty() ? "" : "\n") + line;
+    }
+    return out;
+}
+
+std::string note_in_text(const std::string& text, const std::string& name) {
+    const std::string start = key_of(name) + "=";
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with(start)) return line.substr(start.size());
+    }
+    return "";
+}
+
+// The comments of an HDR file's header, those that go on joined.
+std::string comments_in(const std::filesystem::path& file) {
+    std::ifstream in(file);
+    std::string out;
+    for (std::string line; std::getline(in, line) && !line.empty();) {
+        if (line.starts_with(kContinued)) {
+            out += line.substr(2);
+        } else if (line.starts_with(kComment)) {
+            out += "\n" + line.substr(2);
+        }
+    }
+    return out;
+}
+
+}  // namespace
+
+void add_notes(ImageLayout& layout, const ImageNotes& notes, NoteForm form) {
+    if (form == NoteForm::attributes) {
+        for (const auto& [name, text] : notes.strings) {
+            layout.attributes.emplace_back(key_of(name), text);
+        }
+    } else if (form == NoteForm::description && !notes.strings.empty()) {
+        layout.attributes.emplace_back("ImageDescription", text_of(notes));
+    }
+}
+
+void insert_comments(std::vector<unsigned char>& hdr, const ImageNotes& notes) {
+    std::string comments;
+    std::istringstream lines(text_of(notes));
+    for (std::string line; std::getline(lines, line);) {
+        for (std::size_t i = 0; i < line.size(); i += kCommentBytes) {
+            comments += (i == 0 ? kComment : kContinued) + line.substr(i, kCommentBytes) + "\n";
+        }
+    }
+    hdr.insert(std::ranges::find(hdr, '\n') + 1, comments.begin(), comments.end());
+}
+
+std::string note_in(const std::filesystem::path& file, const ImageLayout& layout,
+                    const std::string& name, NoteForm form) {
+    if (form == NoteForm::comments) return note_in_text(comments_in(file), name);
+    const std::string key = form == NoteForm::attributes ? key_of(name) : "ImageDescription";
+    for (const auto& [attribute, value] : layout.attributes) {
+        if (attribute != key) continue;
+        const auto& text = std::get<std::string>(value);
+        return form == NoteForm::attributes ? text : note_in_text(text, name);
+    }
+    return "";
+}
+
+}  // namespace kilolux
