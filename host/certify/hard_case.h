@@ -17,7 +17,7 @@ namespace kilolux {
 struct HardCase {
     std::string_view label;                                     // "1" .. "34", "M1" .. "M8"
     std::string_view name;                                      // "slice-boundaries"
-    std::string_view subject;                                   // what is made hard
+    std::string_view topic;                                     // what is made hard
     std::string_view threshold;                                 // what must hold
     void (*run)(const Gpu& gpu, Findings& findings) = nullptr;  // at the lane width of `gpu`
 };

@@ -59,7 +59,7 @@ Table hard_case_table(const std::vector<HardCaseRow>& rows) {
     return make_table<Row>(
         {{"case", [](const Row& row) { return row.hard_case.label; }},
          {"name", [](const Row& row) { return row.hard_case.name; }},
-         {"tried", [](const Row& row) { return row.hard_case.subject; }},
+         {"tried", [](const Row& row) { return row.hard_case.topic; }},
          {"worst error (limit)", findings_text},
          {"threshold", [](const Row& row) { return row.hard_case.threshold; }},
          {"lanes", [](const Row& row) { return fmt::to_string(fmt::join(row.lanes, ", ")); }},

@@ -26,7 +26,7 @@ TEST_P(HardCases, HoldsItsThreshold) {
     Findings findings;
     hard_case.run(test_gpu(lanes), findings);
     for (const Finding& finding : findings.all()) {
-        EXPECT_TRUE(finding.passed()) << hard_case.subject << ": " << finding_text(finding);
+        EXPECT_TRUE(finding.passed()) << hard_case.topic << ": " << finding_text(finding);
     }
     EXPECT_TRUE(findings.passed()) << "nothing was tried";
 }

@@ -21,12 +21,9 @@ double number_or_infinity(const Json& value) {
 }
 
 Json row_json(const HardCaseRow& row) {
-    Json out{{"case", row.hard_case.label},
-             {"name", row.hard_case.name},
-             {"tried", row.hard_case.subject},
-             {"threshold", row.hard_case.threshold},
-             {"lanes", row.lanes},
-             {"passed", row.passed()}};
+    Json out{{"case", row.hard_case.label},  {"name", row.hard_case.name},
+             {"tried", row.hard_case.topic}, {"threshold", row.hard_case.threshold},
+             {"lanes", row.lanes},           {"passed", row.passed()}};
     if (!row.error.empty()) out["error"] = row.error;
     out["findings"] = Json::array();
     for (const Finding& f : row.findings.all()) {

@@ -65,18 +65,17 @@ void ViewSession::describe_panel(Actions& actions) {
 
 std::vector<std::string> ViewSession::overlay_lines() const {
     std::vector<std::string> out;
-    const RenderSettings& displayed = facts_.displayed;
+    const RenderSettings& asked = facts_.displayed;
     if (pictures_.shown() == 0) {
         out.emplace_back("compiling kernels and shaders ...");
     } else {
         const double ms = facts_.history.median_frame_ms();
         out.push_back(fmt::format("{:.1f} ms  {:.0f}/s", ms, 1000.0 / std::max(ms, 1e-3)));
-        out.push_back(
-            fmt::format("{} x {} at {:.2f}", displayed.width, displayed.height, facts_.scale));
-        if (displayed.samples > 1) {
-            out.push_back(fmt::format("{} of {} samples", facts_.samples, displayed.samples));
+        out.push_back(fmt::format("{} x {} at {:.2f}", asked.width, asked.height, facts_.scale));
+        if (asked.samples > 1) {
+            out.push_back(fmt::format("{} of {} samples", facts_.samples, asked.samples));
         }
-        out.push_back(fmt::format("{}  {} lights", name_of(displayed.renderer),
+        out.push_back(fmt::format("{}  {} lights", name_of(asked.renderer),
                                   short_count(facts_.stats.lights_used)));
     }
     if (!waiting_.empty()) out.push_back(waiting_);

@@ -11,17 +11,15 @@
 namespace kilolux {
 namespace {
 
-std::optional<ProbedPixel> probe_pixel(Renderer& renderer, const PictureRequest& displayed,
+std::optional<ProbedPixel> probe_pixel(Renderer& renderer, const PictureRequest& asked,
                                        const glm::ivec2& at) {
     const RenderSettings& s = renderer.settings();
     // The renderer may have made another picture since, e.g. for a measurement of errors.
-    if (s.width != displayed.settings.width || s.height != displayed.settings.height)
-        return std::nullopt;
-    ProbedPixel out{at.x, at.y, s.width, s.height, displayed.camera, renderer.probe(at.x, at.y),
-                    {}};
+    if (s.width != asked.settings.width || s.height != asked.settings.height) return std::nullopt;
+    ProbedPixel out{at.x, at.y, s.width, s.height, asked.camera, renderer.probe(at.x, at.y), {}};
     const KernelFeatures& kernels = renderer.plan().kernels;
     out.shares = light_contributions(out.probe, {.shading = shading_of(kernels),
-                                                 .orthographic = displayed.camera.orthographic,
+                                                 .orthographic = asked.camera.orthographic,
                                                  .light_d_min = double{kernels.light_d_min},
                                                  .random_ranges = double{kernels.random_ranges}});
     return out;
@@ -45,18 +43,17 @@ void ClusterOverlay::ask_probe(RenderWorker& worker, const ShownPicture& picture
         return;
     }
     const ScreenPlace& place = picture.place;
-    const RenderSettings& displayed = picture.displayed->settings;
+    const RenderSettings& asked = picture.displayed->settings;
     const glm::dvec2 edges(std::max(place.x1 - place.x0, 1.0f),
                            std::max(place.y1 - place.y0, 1.0f));
     const glm::dvec2 part = (*picture.mouse - glm::dvec2(place.x0, place.y0)) / edges;
-    const glm::ivec2 at =
-        glm::clamp(glm::ivec2(part * glm::dvec2(displayed.width, displayed.height)), glm::ivec2(0),
-                   glm::ivec2(displayed.width, displayed.height) - 1);
+    const glm::ivec2 at = glm::clamp(glm::ivec2(part * glm::dvec2(asked.width, asked.height)),
+                                     glm::ivec2(0), glm::ivec2(asked.width, asked.height) - 1);
     const std::array<std::int64_t, 3> wanted_for = {at.x, at.y,
                                                     static_cast<std::int64_t>(picture.number)};
     if (std::exchange(probed_for_, wanted_for) == wanted_for) return;
-    probing_ = Awaited(worker.ask([at, displayed = *picture.displayed](Renderer& renderer) {
-        return probe_pixel(renderer, displayed, at);
+    probing_ = Awaited(worker.ask([at, asked = *picture.displayed](Renderer& renderer) {
+        return probe_pixel(renderer, asked, at);
     }));
 }
 
