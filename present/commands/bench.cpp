@@ -16,13 +16,14 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 void check(const BenchOptions& o) {
-    const int modes = o.tune + o.quick;
+    const int modes = o.tune + o.quick + !o.jobs.empty();
     if (!o.tables.empty() && (modes > 0 || !o.output.empty())) {
         throw UsageError("--table: prints what was measured; it goes with no other mode and no -o");
     }
-    if (modes > 1) throw UsageError("--quick and --tune exclude each other");
+    if (modes > 1) throw UsageError("--quick, --tune and --job exclude each other");
     if (o.budget.max_error && o.tune)
         throw UsageError("--max-error: goes with sweeps, not with --tune");
+    if (o.resume && !o.jobs.empty()) throw UsageError("--resume: goes with sweeps, not with --job");
     if (o.resume && o.output.empty()) throw UsageError("--resume: needs the folder of -o");
 }
 
@@ -36,6 +37,7 @@ void run_bench(BenchOptions& options) {
     }
     make_output_folder(options.output);
     if (options.tune) return run_tuning(options);
+    if (!options.jobs.empty()) return run_jobs(options);
     run_sweep(options);
 }
 
@@ -45,6 +47,7 @@ constexpr const char* kBenchExamples =
     "  kilolux bench --lights 500:5000:500 --renderer deferred,deferred-all -o results\n"
     "  kilolux bench --lights 256:8192:*2 --resolution '1280,720;1920,1080' --frames 30\n"
     "  kilolux bench --grid '4,4,1;16,9,4;64,36,64' --lanes 1,8 -o results --resume\n"
+    "  kilolux bench --job png,exr,y4m --lights 8192 -o results\n"
     "  kilolux bench --tune\n"
     "  kilolux bench --table results/bench.csv";
 

@@ -35,6 +35,7 @@ struct BenchOptions {
     std::optional<int> frames;
     BenchMotion motion = BenchMotion::camera;
     std::filesystem::path output;     // folder; empty: the table on standard output only
+    std::vector<std::string> jobs;    // --job: types of files; empty: frames are measured
     std::vector<std::string> tables;  // --table: CSV files to print instead of measuring
     bool resume = false;
     bool json = false;
@@ -110,5 +111,9 @@ struct BenchScene {
 /// The modes.
 void run_sweep(BenchOptions& options);
 void run_tuning(BenchOptions& options);
+void run_jobs(BenchOptions& options);
+
+/// Pictures of a job without --frames.
+inline constexpr int kJobPictures = 24;
 
 }  // namespace kilolux

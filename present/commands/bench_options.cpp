@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "host/base/formats/gbuffer_layout.h"
@@ -72,6 +74,17 @@ void add_mode_options(CLI::App& command, BenchOptions& o) {
         .flag("--quick", o.quick, "A small sweep of lights and grid")
         .flag("--tune", o.tune,
               "Search the fastest work sizes of this device and keep them for all commands")
+        .value({"--job", "TYPE,...", "",
+                "Pictures a second from the command to files of these types (png, exr, jpg, tif, "
+                "hdr, y4m, mp4, mkv, webm) in a temporary folder, beside the frames alone"},
+               o.jobs,
+               [](Text name, Text text) {
+                   return parse_list(name, text, ',', [](Text option, std::string_view type) {
+                       const std::vector<std::string> known = {"png", "exr", "jpg", "tif", "hdr",
+                                                               "y4m", "mp4", "mkv", "webm"};
+                       return known[parse_name(option, type, known)];
+                   });
+               })
         .value({"--table", "FILE,...", "",
                 "Print the tables of CSV files that a bench wrote, with what made them"},
                o.tables, [](Text, Text text) {
@@ -105,7 +118,8 @@ void add_bench_options(CLI::App& command, BenchOptions& options) {
         .count({"--warm-up", "N", text_of(BenchFrames{}.warm_up), "Frames before those that count"},
                options.warm_up, {0, 1'000'000})
         .count({"--frames", "N", text_of(BenchFrames{}.measured),
-                "Frames that count; runs with --tune"},
+                fmt::format("Frames that count; runs with --tune; pictures with --job ({} there)",
+                            kJobPictures)},
                options.frames, {1, 1'000'000})
         .choice({"--motion", "", "camera", "What moves from frame to frame"}, options.motion)
         .text({"--output,-o", "DIR", "", "Folder for CSV, JSON and plots"}, options.output)

@@ -133,6 +133,19 @@ bool wants_own_display(const RenderOptions& options) {
     return options.output.encoding.bits == 16 || uses_ocio(options.output.ocio);
 }
 
+FrameRequest request_of(const RenderOptions& options, const FrameRequest& asked) {
+    const OutputOptions& out = options.output;
+    const bool own_display = wants_own_display(options) || options.has_alpha;
+    const bool for_the_eye = is_for_the_eye(out.output);
+    FrameRequest want = asked;
+    want.display = for_the_eye || !out.reference.empty();
+    want.radiance = !for_the_eye || own_display || !out.reference.empty();
+    want.bloomed = own_display;
+    want.counts =
+        !out.stats.empty() || std::ranges::find(want.aovs, "light-count") != want.aovs.end();
+    return want;
+}
+
 PictureFiles::PictureFiles(const RenderOptions& options, std::size_t count,
                            const Renderer& renderer)
     : options_(options),

@@ -63,6 +63,10 @@ bool is_for_the_eye(const std::filesystem::path& output);
 /// Whether display colours are made on the host, of 16 bits or by OpenColorIO.
 bool wants_own_display(const RenderOptions& options);
 
+/// The results that files and the comparison need beside those that are asked for. Counting useful
+/// evaluations takes a pass of its own.
+FrameRequest request_of(const RenderOptions& options, const FrameRequest& asked);
+
 /// Pictures on their way to their files: an OrderedWriter codes and writes them while the next ones
 /// are made.
 class PictureFiles {

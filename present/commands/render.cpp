@@ -60,21 +60,6 @@ void check_files(const RenderOptions& options, const PictureTasks& tasks,
     require_reference_size(first.reference, settings.width, settings.height);
 }
 
-// The results that files and the comparison need. Counting useful evaluations takes a pass of its
-// own.
-FrameRequest request_of(const RenderOptions& options, const FrameRequest& asked) {
-    const OutputOptions& out = options.output;
-    const bool own_display = wants_own_display(options) || options.has_alpha;
-    const bool for_the_eye = is_for_the_eye(out.output);
-    FrameRequest want = asked;
-    want.display = for_the_eye || !out.reference.empty();
-    want.radiance = !for_the_eye || own_display || !out.reference.empty();
-    want.bloomed = own_display;
-    want.counts =
-        !out.stats.empty() || std::ranges::find(want.aovs, "light-count") != want.aovs.end();
-    return want;
-}
-
 void warn_of_exposure(const RenderOptions& options) {
     const bool exposes =
         options.shared.automatic_exposure || options.shared.settings.exposure != 0.0f;

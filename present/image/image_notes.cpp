@@ -43,7 +43,7 @@ std::string comments_in(const std::filesystem::path& file) {
         if (line.starts_with(kContinued)) {
             out += line.substr(2);
         } else if (line.starts_with(kComment)) {
-            out += "\n" + line.substr(2);
+            out.append("\n").append(line, 2);
         }
     }
     return out;

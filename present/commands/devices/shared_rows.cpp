@@ -27,20 +27,18 @@ std::optional<Band> SharedRows::take(std::size_t device) {
 
 // A device that is not measured counts as the mean of those that are.
 int SharedRows::rows_for(std::size_t device) const {
-    constexpr double kFirst = 4.0;    // parts of a device's share, of which it takes one at first
-    constexpr double kFewest = 32.0;  // parts of the picture
+    constexpr double kFewest = 16.0;  // parts of the picture for each device
+    const auto devices = static_cast<double>(speeds_.size());
+    double rows = height_ / (kFewest * devices);
     double sum = 0.0, measured = 0.0;
     for (const double speed : speeds_) {
         sum += speed;
         measured += speed > 0.0 ? 1.0 : 0.0;
     }
-    const auto devices = static_cast<double>(speeds_.size());
-    double rows = height_ / (kFirst * devices);
     if (speeds_[device] > 0.0) {
         const double share = speeds_[device] / (sum * devices / measured);
-        rows = 0.5 * share * (height_ - next_);
+        rows = std::max(rows, 0.5 * share * (height_ - next_));
     }
-    rows = std::max(rows, height_ / kFewest);
     return static_cast<int>(std::ceil(rows / step_)) * step_;
 }
 

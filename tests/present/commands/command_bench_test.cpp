@@ -125,6 +125,37 @@ TEST(Bench, StageTimesSumToTheFrame) {
     EXPECT_NEAR(sum, frame, 1e-6 * frame);
 }
 
+// Files go to a temporary folder, which is removed.
+TEST(Bench, MeasuresJobs) {
+    const TemporaryFolder folder, temporary;
+    const EnvironmentVariable variable("TMPDIR", temporary.path().string());
+    const ChildResult result = run_kilolux(
+        small_bench({"--lights", "10,20", "--job", "png,exr,y4m", "-o", folder.path().string()}));
+    ASSERT_EQ(result.code, 0) << result.err;
+    EXPECT_TRUE(names_in(temporary).empty());
+    const Json document = Json::parse(text_of_file(folder / "job.json"));
+    ASSERT_EQ(document.at("rows").size(), 6u);
+    for (const Json& row : document.at("rows")) {
+        EXPECT_EQ(row.at("pictures"), 2);
+        EXPECT_EQ(row.at("resolution"), "64x36");
+        for (const char* rate : {"frames/s alone", "pictures/s", "pictures/s with start"})
+            EXPECT_GT(row.at(rate).get<double>(), 0.0) << rate;
+        EXPECT_LT(row.at("pictures/s with start"), row.at("pictures/s"));
+    }
+    const Json& y4m = document.at("rows")[2];
+    EXPECT_EQ(y4m.at("job"), "y4m");
+    EXPECT_NEAR(y4m.at("MiB/picture").get<double>() * 1048576.0, 3 * 64 * 36 + 6, 100)
+        << "Y'CbCr 4:4:4 and headers";
+    EXPECT_EQ(document.at("context").at("frames").at("motion"), "lights");
+    const ChildResult table = run_kilolux({"bench", "--table", (folder / "job.csv").string()});
+    for (const char* part : {"| y4m |", "| pictures/s with start |", "; 2 frames after 1."})
+        EXPECT_TRUE(contains(table.out, part)) << part << " / " << table.out;
+    for (const char* other : {"--quick", "--tune", "--resume"}) {
+        EXPECT_EQ(run_kilolux(small_bench({"--job", "png", other})).code, 2) << other;
+    }
+    EXPECT_EQ(run_kilolux(small_bench({"--job", "bmp"})).code, 2);
+}
+
 TEST(Bench, ResumesPointsOfTheSameContext) {
     const TemporaryFolder folder;
     const auto bench = [&](std::vector<std::string> more) {
