@@ -64,7 +64,7 @@ RenderOptions job_options(const BenchOptions& bench, const JobRow& job, const fs
     out.output.output = folder / ("job." + job.type);
     if (!is_video(out.output.output)) out.output.output = folder / ("job.####." + job.type);
     out.output.frames = FrameRange{0, job.pictures - 1};
-    out.command = picture_command(out.shared, out.output);
+    out.command = picture_command(out);
     return out;
 }
 
