@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "host/images/images.h"
 #include "tests/support/child.h"
 #include "tests/support/messages.h"
 
@@ -68,7 +69,7 @@ TEST_F(RenderDevices, MakeTheFilesOfOne) {
 // One picture: its rows go to both devices.
 TEST_F(RenderDevices, MakeThePictureOfOne) {
     const std::vector<std::pair<const char*, std::vector<std::string>>> cases = {
-        {"a.png", {"--samples", "20"}},
+        {"a.png", {"--samples", "200"}},  // so long that both make rows
         {"b.png", {"--bloom", "0.3", "--exposure", "auto", "--geometry", "ids"}},
         {"c.png", {"--background", "none"}},
         {"d.exr", {"--aov", "depth,normal,light-count"}},
@@ -87,7 +88,9 @@ TEST_F(RenderDevices, MakeThePictureOfOne) {
         for (const char* device : {"\ndevice 0 (", "\ndevice 1 ("}) {
             EXPECT_TRUE(contains(result.err, device)) << result.err;
         }
-        EXPECT_FALSE(contains(result.err, ": 131 rows in ")) << "one made all\n" << result.err;
+        EXPECT_FALSE(name == cases[0].first && contains(result.err, ": 131 rows in "))
+            << "one made all\n"
+            << result.err;
         EXPECT_TRUE(text_of_file(two_ / name) == text_of_file(one_ / name));
     }
 }
@@ -95,7 +98,7 @@ TEST_F(RenderDevices, MakeThePictureOfOne) {
 // The statistics are those of the slowest device, with each device's part.
 TEST_F(RenderDevices, TellWhatEachDidOfAPicture) {
     std::vector<std::string> words = picture_words(two_ / "a.png", "0,1");
-    words.insert(words.end(), {"--samples", "20", "--stats", (two_ / "s.json").string()});
+    words.insert(words.end(), {"--samples", "200", "--stats", (two_ / "s.json").string()});
     const ChildResult result = run_child(words);
     ASSERT_EQ(result.code, 0) << result.err;
     const auto stats = nlohmann::json::parse(text_of_file(two_ / "s.json"));
@@ -106,6 +109,37 @@ TEST_F(RenderDevices, TellWhatEachDidOfAPicture) {
     const double frame = stats.at("frame_ms");
     EXPECT_GE(frame, std::max(first, second));
     EXPECT_LT(frame, first + second);
+}
+
+TEST_F(RenderDevices, LeaveNothingOfAPictureThatIsInterrupted) {
+    std::vector<std::string> words = picture_words(two_ / "a.png", "0,1");
+    words.insert(words.end(), {"--samples", "65536"});
+    const ChildResult result = run_child(words, [](pid_t child) {
+        sleep(2);
+        kill(child, SIGTERM);
+    });
+    EXPECT_EQ(result.code, 130) << result.err;
+    EXPECT_TRUE(names_in(two_).empty());
+}
+
+// Devices that differ: one of PoCL's works in one thread.
+TEST_F(RenderDevices, NoteAllThatMadeAPicture) {
+    std::vector<std::string> words = picture_words(two_ / "a.exr", "all");
+    words[1] = "POCL_DEVICES=pthread basic";
+    words.insert(words.end(), {"--samples", "200"});
+    const ChildResult refused = run_child(words);
+    EXPECT_EQ(refused.code, 2) << refused.err;
+    EXPECT_TRUE(contains(refused.err, "--mixed-devices allows that")) << refused.err;
+    words.push_back("--mixed-devices");
+    const ChildResult result = run_child(words);
+    ASSERT_EQ(result.code, 0) << result.err;
+    const std::unique_ptr<ImageReader> reader = open_image(two_ / "a.exr");
+    std::string noted;
+    for (const auto& [name, value] : reader->layout().attributes) {
+        if (name == "kilolux:device") noted = std::get<std::string>(value);
+    }
+    for (const char* device : {"basic-", "; pthread-"})
+        EXPECT_TRUE(contains(noted, device)) << noted;
 }
 
 TEST_F(RenderDevices, MakeAPictureByOneWhereOpenGlLights) {
