@@ -27,6 +27,10 @@ void* operator new(std::size_t bytes) {
     if (memory == nullptr) throw std::bad_alloc();
     return memory;
 }
+// std::stable_sort's; the sanitizer's own would not fit operator delete below.
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
+    return bytes >= refused_from.load() ? nullptr : std::malloc(bytes > 0 ? bytes : 1);
+}
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
