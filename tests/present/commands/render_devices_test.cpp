@@ -124,14 +124,21 @@ TEST_F(RenderDevices, LeaveNothingOfAPictureThatIsInterrupted) {
 
 // Devices that differ: one of PoCL's works in one thread.
 TEST_F(RenderDevices, NoteAllThatMadeAPicture) {
-    std::vector<std::string> words = picture_words(two_ / "a.exr", "all");
-    words[1] = "POCL_DEVICES=pthread basic";
-    words.insert(words.end(), {"--samples", "200"});
-    const ChildResult refused = run_child(words);
+    const auto made = [&](const std::string& devices, const std::vector<std::string>& more) {
+        std::vector<std::string> words = picture_words(two_ / "a.exr", devices);
+        words[1] = "POCL_DEVICES=pthread basic";
+        words.insert(words.end(), {"--samples", "200"});
+        words.insert(words.end(), more.begin(), more.end());
+        return run_child(words);
+    };
+    const ChildResult refused = made("0,1", {});
     EXPECT_EQ(refused.code, 2) << refused.err;
     EXPECT_TRUE(contains(refused.err, "--mixed-devices allows that")) << refused.err;
-    words.push_back("--mixed-devices");
-    const ChildResult result = run_child(words);
+    const ChildResult alike = made("all", {"--samples", "1"});
+    EXPECT_EQ(alike.code, 0) << alike.err;
+    EXPECT_TRUE(contains(alike.err, "device  all like ")) << alike.err;
+    EXPECT_TRUE(contains(alike.err, "; --mixed-devices also takes ")) << alike.err;
+    const ChildResult result = made("all", {"--mixed-devices"});
     ASSERT_EQ(result.code, 0) << result.err;
     const std::unique_ptr<ImageReader> reader = open_image(two_ / "a.exr");
     std::string noted;
