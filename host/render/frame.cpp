@@ -67,7 +67,7 @@ void develop_band(Pipeline& p, const std::optional<DisplayTarget>& shaded, const
                   Frame& frame) {
     if (shaded) return p.picture.read_display(*shaded, p.timer);
     p.picture.read_light(light, frame.radiance, p.timer);
-    if (!p.picture.gathers(light)) develop(p, light, frame);
+    if (!p.picture.keep_for_bloom(light)) develop(p, light, frame);
 }
 
 // A band's AOVs, and its surfaces for a view.
@@ -185,7 +185,7 @@ void render_bands(Pipeline& p, const Shot& shot, SharedPicture& picture, FrameSt
 void finish(Pipeline& p, const Shot& shot, SharedPicture& picture, FrameStats& stats) {
     Frame& frame = picture.frame;
     const Clock::time_point start = Clock::now();
-    if (const auto light = p.picture.gathered(shot.camera, frame)) {
+    if (const auto light = p.picture.whole_light(shot.camera, frame)) {
         develop(p, *light, frame);
         const double built_ms = stats.build_ms;
         p.picture.finish(p.timer, stats);
@@ -243,7 +243,11 @@ FrameStats finish_rows(Pipeline& pipeline, const Shot& shot, SharedPicture& pict
     return soundly(pipeline, [&] {
         FrameStats stats;
         const QueueDrain drain(pipeline.context.gpu.queue);
+        // This renderer may have made no rows of the picture.
         pipeline.context.scene->make_current();
+        pipeline.context.scene->take_up_changes();
+        pipeline.timer = StageTimer();
+        pipeline.picture.begin({}, picture.frame, true);
         finish(pipeline, shot, picture, stats);
         return stats;
     });

@@ -62,7 +62,7 @@ DisplayTarget PictureOutput::target(const View& view) {
     return tonemap_.target({pixels, memory_.size()}, view, exposure);
 }
 
-bool PictureOutput::gathers(const Radiance& light) {
+bool PictureOutput::keep_for_bloom(const Radiance& light) {
     if (!blooms_at_end()) return false;
     if (by_rows_) return true;  // it is read
     const View& view = light.view;
@@ -74,7 +74,7 @@ bool PictureOutput::gathers(const Radiance& light) {
     return true;
 }
 
-std::optional<Radiance> PictureOutput::gathered(const Camera& camera, const Frame& frame) {
+std::optional<Radiance> PictureOutput::whole_light(const Camera& camera, const Frame& frame) {
     if (!blooms_at_end()) return {};
     const RenderSettings& settings = context_.settings;
     const View view = view_of(camera, settings.width, settings.height);

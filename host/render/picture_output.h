@@ -35,11 +35,10 @@ class PictureOutput {
     /// Where shading puts the band's display picture.
     DisplayTarget target(const View& view);
 
-    /// Keeps the light of a band for bloom where bloom mixes several bands; false where it does
-    /// not.
-    bool gathers(const Radiance& light);
-    /// The light that gathers() kept, or of all rows; none where bloom needs none.
-    std::optional<Radiance> gathered(const Camera& camera, const Frame& frame);
+    /// Keeps the band's light if bloom needs all bands. Returns whether it did.
+    bool keep_for_bloom(const Radiance& light);
+    /// The light that keep_for_bloom() kept, or of all rows; none where bloom needs none.
+    std::optional<Radiance> whole_light(const Camera& camera, const Frame& frame);
 
     /// The light with bloom.
     Radiance bloom(const Radiance& light, StageTimer& timer);

@@ -34,7 +34,7 @@ struct SharedOptions {
     std::shared_ptr<const PrefilteredEnvironment> maps;  // set by light_scene()
     // The command makes pictures to look at: they can show background and reflections.
     bool shows_environment = false;
-    bool compares_renderers = false;         // with the same lights: choose_tails() takes no tree
+    bool compares_renderers = false;         // it measures several with the same lights
     std::uint64_t environment_lights = 128;  // directional lights that replace it
     bool lights_given = false;               // settings.lights.count was asked for
     bool ambient_given = false;              // settings.ambient was asked for

@@ -11,6 +11,7 @@
 #include "host/base/error.h"
 #include "host/base/log.h"
 #include "host/base/suggest.h"
+#include "host/render/plan/settings_check.h"
 #include "host/scene/generated/scenes.h"
 #include "host/scene/gltf/load_scene.h"
 #include "host/scene/lights/bounded_loss.h"
@@ -277,8 +278,7 @@ void choose_tails(SharedOptions& options, const Scene& scene) {
     const bool bounded = tails_for(scene.lights, s.tails, s.range_budget) == Tails::bounded;
     if (s.tails != Tails::automatic || !bounded || s.range_budget != kDefaultRangeBudget) return;
     if (bounded_loss(scene.lights, resting_bounds(scene), s.range_budget) <= kMostLost) return;
-    const bool takes_tree = s.renderer == RendererKind::deferred && s.shadows == Shadows::off &&
-                            !options.compares_renderers && !has_blended_surfaces(scene);
+    const bool takes_tree = !options.compares_renderers && tree_can_light(scene, s);
     if (takes_tree) {
         s.tails = Tails::tree;
         return;
@@ -288,8 +288,8 @@ void choose_tails(SharedOptions& options, const Scene& scene) {
     const double lost = bounded_loss(scene.lights, resting_bounds(scene), s.range_budget);
     if (lost <= kMostLost) return;
     warn(fmt::format(
-        "{}: the ranges that lights without one get cut up to about {:.0f} % of their light; "
-        "--tails exact keeps it",
+        "{}: lights without a range are cut off; up to about {:.0f} % of their light is lost at a "
+        "point; --tails exact keeps it",
         options.scene, 100.0 * lost));
 }
 

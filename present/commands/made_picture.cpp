@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "host/base/error.h"
@@ -51,8 +52,10 @@ auto read_made(const std::filesystem::path& file, const Read& read)
 
 std::string picture_command(const RenderOptions& options) {
     RenderOptions noted = options, defaults;
-    return "kilolux render " + shell_word(options.shared.scene) +
-           option_words(settings_of(noted), settings_of(defaults), Changes::picture);
+    std::string out = "kilolux render " + shell_word(options.shared.scene) +
+                      option_words(settings_of(noted), settings_of(defaults), Changes::picture);
+    std::ranges::replace(out, '\n', ' ');  // a note is one line
+    return out;
 }
 
 bool is_made(const WantedPicture& wanted) {

@@ -66,7 +66,7 @@ auto on_device(const Call& call) {
         throw;
     } catch (const Interrupted&) {
         throw;
-    } catch (const Error& error) {
+    } catch (const std::exception& error) {
         throw DeviceFailure(error.what());
     }
 }

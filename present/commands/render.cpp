@@ -134,7 +134,13 @@ void render_from(RenderOptions& options, const PictureTasks& tasks, std::size_t 
                        camera};
     RowHelpers* helpers = nullptr;  // of a single picture
     if (!more_devices.empty() && tasks.size() - begin == 1) {
-        start.lit = [&](const Scene& scene, const RenderSettings& settings) {
+        start.on_lit = [&](const Scene& scene,
+                           const RenderSettings& settings) -> std::shared_ptr<void> {
+            if (!has_rows_to_share(scene, settings)) {
+                note(
+                    "device  OpenGL lights or blends surfaces: one device makes the whole picture");
+                return nullptr;
+            }
             auto made = std::make_shared<RowHelpers>(more_devices);
             made->start(scene, settings);
             helpers = made.get();
@@ -143,12 +149,9 @@ void render_from(RenderOptions& options, const PictureTasks& tasks, std::size_t 
     }
     if (!more_devices.empty()) share_memory(options.shared.settings, 1 + more_devices.size());
     SceneRenderer pictures(options.shared, options.budget, start);
+    if (helpers != nullptr) helpers->wait_until_ready();
     note(pictures.rig_lines());  // before the frames, which may take minutes
     if (options.shared.automatic_exposure) expose_automatically(options, pictures);
-    if (helpers != nullptr && !has_rows_to_share(pictures.renderer())) {
-        note("device  OpenGL lights or blends surfaces: one device makes the whole picture");
-        helpers = nullptr;
-    }
     report_pictures(options, pictures,
                     helpers != nullptr
                         ? render_by_rows(options, first, pictures, *helpers)

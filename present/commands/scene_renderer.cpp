@@ -55,7 +55,7 @@ SceneRenderer::SceneRenderer(SharedOptions& options, const BudgetOptions& budget
     camera_ = camera_at_(scene_.scene(), first.frame, first.time);
     check_interrupt();
     const RenderSettings settings = settings_of(budget, first.want, first.time);
-    if (first.lit) kept_ = first.lit(scene_.scene(), settings);
+    if (first.on_lit) helpers_ = first.on_lit(scene_.scene(), settings);
     renderer_.emplace(scene_.scene(), settings);
     check_interrupt();
 }
@@ -122,6 +122,7 @@ void SceneRenderer::change(const SharedOptions& next, const BudgetOptions& budge
     const Asked asked = asked_;
     const std::vector<SceneLight> added = scene_.added_lights();
     const std::string rig = rig_;
+    const Camera camera = camera_;
     try {
         asked_ = Asked(next.settings);
         if (relights) relight(options_);
@@ -133,6 +134,7 @@ void SceneRenderer::change(const SharedOptions& next, const BudgetOptions& budge
         options_ = former;
         asked_ = asked;
         rig_ = rig;
+        camera_ = camera;
         if (relights) scene_.replace_lights(added);
         throw;
     }

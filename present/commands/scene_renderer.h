@@ -28,9 +28,10 @@ struct FirstPicture {
     /// The camera of a frame at a time [s]; none: that of the options.
     std::function<Camera(const Scene& scene, int frame, double time)> camera{};
     std::optional<Scene> made{};  // replaces the scene that the options name
-    /// Called before the renderer is built, for whoever builds another one for its scene meanwhile:
-    /// what it returns is kept as long as the scene.
-    std::function<std::shared_ptr<void>(const Scene& scene, const RenderSettings& settings)> lit{};
+    /// Called after lighting and before the renderer is built, so that other renderers can be built
+    /// at the same time. The result lives as long as the scene.
+    std::function<std::shared_ptr<void>(const Scene& scene, const RenderSettings& settings)>
+        on_lit{};
 };
 
 /// The settings of the same picture before a white background.
@@ -98,7 +99,7 @@ class SceneRenderer {
     Asked asked_;
     std::vector<SceneLight> lights_;  // of set_lights()
     std::string rig_;
-    std::shared_ptr<void> kept_;  // of FirstPicture::lit; goes before the scene
+    std::shared_ptr<void> helpers_;  // of FirstPicture::on_lit; goes before the scene
     std::optional<Renderer> renderer_;
     Camera camera_;
     std::optional<DeviceLimits> limits_;

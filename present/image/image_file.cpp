@@ -279,7 +279,7 @@ std::vector<unsigned char> encode_image(const std::filesystem::path& file, const
 
 std::string note_in(const std::filesystem::path& file, const ImageLayout& layout,
                     const std::string& name) {
-    return note_in(file, layout, name, format_of(file).notes);
+    return note_of_form(file, layout, name, format_of(file).notes);
 }
 
 void check_can_write_image(const std::filesystem::path& file) {

@@ -72,14 +72,15 @@ void insert_comments(std::vector<unsigned char>& hdr, const ImageNotes& notes) {
     hdr.insert(std::ranges::find(hdr, '\n') + 1, comments.begin(), comments.end());
 }
 
-std::string note_in(const std::filesystem::path& file, const ImageLayout& layout,
-                    const std::string& name, NoteForm form) {
+std::string note_of_form(const std::filesystem::path& file, const ImageLayout& layout,
+                         const std::string& name, NoteForm form) {
     if (form == NoteForm::comments) return note_in_text(comments_in(file), name);
     const std::string key = form == NoteForm::attributes ? key_of(name) : "ImageDescription";
     for (const auto& [attribute, value] : layout.attributes) {
         if (attribute != key) continue;
-        const auto& text = std::get<std::string>(value);
-        return form == NoteForm::attributes ? text : note_in_text(text, name);
+        const auto* text = std::get_if<std::string>(&value);
+        if (text == nullptr) continue;
+        return form == NoteForm::attributes ? *text : note_in_text(*text, name);
     }
     return "";
 }

@@ -24,7 +24,7 @@ void add_notes(ImageLayout& layout, const ImageNotes& notes, NoteForm form);
 void insert_comments(std::vector<unsigned char>& hdr, const ImageNotes& notes);
 
 /// The note of that name in a file that open_image() read as `layout`; empty where it has none.
-std::string note_in(const std::filesystem::path& file, const ImageLayout& layout,
-                    const std::string& name, NoteForm form);
+std::string note_of_form(const std::filesystem::path& file, const ImageLayout& layout,
+                         const std::string& name, NoteForm form);
 
 }  // namespace kilolux

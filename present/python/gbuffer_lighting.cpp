@@ -195,9 +195,12 @@ GBufferLighting::Lit GBufferLighting::light(const HostSurfaces& surfaces, const 
     Camera camera = seen_by;
     camera.z_near = range.first;
     const View view = view_of(camera, surfaces.width, surfaces.height);
-    const Box box = box_of(camera, double(surfaces.width) / surfaces.height, range);
-    fill_missing_ranges(lights, tails_for(lights, Tails::automatic, kDefaultRangeBudget),
-                        budget_of_sum(lights, box));
+    const Tails tails = tails_for(lights, Tails::automatic, kDefaultRangeBudget);
+    const double aspect = double(surfaces.width) / surfaces.height;
+    fill_missing_ranges(lights, tails,
+                        tails == Tails::bounded
+                            ? budget_of_sum(lights, box_of(camera, aspect, range))
+                            : kDefaultRangeBudget);
     const LightRows rows = make_light_rows(lights, camera.position);
     const KernelFeatures features = features_of(surfaces, rows, shading_);
     FullPlanes planes(surfaces, view, features);

@@ -134,7 +134,7 @@ TEST_F(TailsChoice, RangesOfTooManyLightsStayShortWithAWarning) {
     const std::string written = testing::internal::GetCapturedStderr();
     EXPECT_TRUE(contains(line, "tails   bounded (automatic)")) << line;
     const std::string warning = "kilolux: warning: " + options_.scene +
-                                ": the ranges that lights without one get cut up to about ";
+                                ": lights without a range are cut off; up to about ";
     EXPECT_TRUE(written.starts_with(warning)) << written;
     EXPECT_EQ(std::ranges::count(written, '\n'), 1) << written;
 }

@@ -124,9 +124,9 @@ TEST(Bands, ChangeNoBitWithEveryLightAtEveryPixel) {
     expect_same_in_bands(make_generated_scene("plain"), settings);
 }
 
-// Two renderers take turns with rows of one picture, not in order.
+// Two renderers take turns with rows of one picture, not in order; a third one finishes it.
 void expect_same_by_rows(const Scene& scene, const RenderSettings& settings) {
-    Renderer one(scene, settings), two(scene, settings);
+    Renderer one(scene, settings), two(scene, settings), three(scene, settings);
     const Camera camera = first_camera(scene);
     const Frame whole = one.render(camera, 0.5);
     const std::unique_ptr<SharedPicture> picture = two.begin_rows();
@@ -135,7 +135,7 @@ void expect_same_by_rows(const Scene& scene, const RenderSettings& settings) {
                                            two.render_rows(*picture, camera, 0.5, {16, 48})};
     FrameStats second = parts[1];
     add_rows(second, parts[2]);
-    const FrameStats end = one.finish_rows(*picture, camera, 0.5);
+    const FrameStats end = three.finish_rows(*picture, camera, 0.5);
     picture->frame.stats = joined({parts[0], second});
     const FrameStats& stats = picture->frame.stats;
     expect_same_frame(picture->frame, whole);

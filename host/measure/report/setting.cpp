@@ -12,6 +12,7 @@
 #include "host/measure/reference/reference.h"
 #include "host/render/plan/kernel_choice.h"
 #include "host/render/plan/scene_plan.h"
+#include "host/render/plan/settings_check.h"
 #include "host/scene/lights/light_tree.h"
 
 namespace kilolux {
@@ -154,8 +155,7 @@ void add_shadows(Variants& v) {
 
 bool can_group(const Scene& scene, const RenderSettings& settings) {
     const auto points = std::ranges::count_if(scene.lights, is_for_tree);
-    return static_cast<std::size_t>(points) > kExactTails && !has_shadows(settings) &&
-           settings.renderer == RendererKind::deferred && !has_blended_surfaces(scene);
+    return static_cast<std::size_t>(points) > kExactTails && tree_can_light(scene, settings);
 }
 
 // Adds ways other than ranges of shading many lights that lack a range.

@@ -84,4 +84,9 @@ void check_settings(const RenderSettings& settings) {
     check_view(settings);
 }
 
+bool tree_can_light(const Scene& scene, const RenderSettings& settings) {
+    return settings.renderer == RendererKind::deferred && settings.shadows == Shadows::off &&
+           !has_blended_surfaces(scene);
+}
+
 }  // namespace kilolux

@@ -9,4 +9,8 @@ namespace kilolux {
 /// refuse them before it loads one; Error for a name that settings.force_features does not know.
 void check_settings(const RenderSettings& settings);
 
+/// Whether Tails::tree can light the scene with these settings: a tree's nodes cast no shadows, and
+/// only deferred has them, for opaque surfaces.
+bool tree_can_light(const Scene& scene, const RenderSettings& settings);
+
 }  // namespace kilolux

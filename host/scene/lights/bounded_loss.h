@@ -5,9 +5,8 @@
 
 namespace kilolux {
 
-/// Largest share of the light of those of `lights` without a range that Tails::bounded cuts at a
-/// point, 0 to 1: of a grid's points in the box, from side to side, and of the sum of at most 4096
-/// of the lights.
+/// Largest share, 0 to 1, of light that the ranges of Tails::bounded cut at any point of a grid of
+/// 5x5x5 in the box: of the sum of at most 4096 of the lights without a range.
 double bounded_loss(std::span<const SceneLight> lights, const Box& box,
                     double error_budget = kDefaultRangeBudget);
 
@@ -19,8 +18,8 @@ inline constexpr double kMostLost = 0.1;
 /// shading cost as much as these.
 inline constexpr double kMostInReach = 4096.0;
 
-/// The largest of error_budget, error_budget / 2, error_budget / 4 ... with which bounded_loss() is
-/// at most kMostLost; a larger one where more than kMostInReach lights would reach a point.
+/// Halves the budget until bounded_loss() is at most kMostLost. Stops earlier if more than
+/// kMostInReach lights would reach a point.
 double budget_of_sum(std::span<const SceneLight> lights, const Box& box,
                      double error_budget = kDefaultRangeBudget);
 

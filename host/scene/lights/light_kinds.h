@@ -27,7 +27,12 @@ inline constexpr auto kLightKinds = std::to_array<LightKind>({
     {LightType::spot, "spot", true, true, true, &SceneFeatures::spot_lights},
     {LightType::directional, "directional", false, true, false, &SceneFeatures::directional_lights},
 });
-static_assert(std::ranges::is_sorted(kLightKinds, {}, &LightKind::type));
+static_assert([] {
+    for (std::size_t i = 0; i < kLightKinds.size(); ++i) {
+        if (static_cast<std::size_t>(kLightKinds[i].type) != i) return false;
+    }
+    return true;
+}());  // kind_of() takes the type for the place
 
 /// A number that some kinds of light have, in a file as here. The loader, its rules, the exporter
 /// and the test of a light's usability loop over these.

@@ -108,8 +108,8 @@ FrameStats stats_of(const RowsJob& job, const FrameStats& begun,
 
 }  // namespace
 
-bool has_rows_to_share(const Renderer& renderer) {
-    return renderer.memory().least_rows < renderer.settings().height;
+bool has_rows_to_share(const Scene& scene, const RenderSettings& settings) {
+    return !is_forward(settings.renderer) && !has_blended_surfaces(scene);
 }
 
 RowHelpers::RowHelpers(const std::vector<std::string>& devices)
@@ -130,7 +130,7 @@ void RowHelpers::start(const Scene& scene, const RenderSettings& settings) {
     for (std::size_t i = 1; i < shares_.size(); ++i) {
         threads_.emplace_back([this, i, &scene, settings] {
             bool is_ready = false;
-            share_out(i, [&] {
+            run_guarded(i, [&] {
                 RenderSettings own = settings;
                 own.device = shares_[i].index;
                 own.opened.reset();
@@ -143,7 +143,7 @@ void RowHelpers::start(const Scene& scene, const RenderSettings& settings) {
     }
 }
 
-void RowHelpers::share_out(std::size_t device, const std::function<void()>& run) noexcept {
+void RowHelpers::run_guarded(std::size_t device, const std::function<void()>& run) noexcept {
     run_share(
         shares_[device], left_, [this](std::exception_ptr e) { fail(std::move(e)); }, run);
 }
@@ -168,11 +168,14 @@ RowsJob* RowHelpers::wait_for_job() {
     return job_;
 }
 
-// The job begins when all helpers are ready, or have failed.
-void RowHelpers::begin(RowsJob& job) {
+void RowHelpers::wait_until_ready() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return getting_ready_ == 0; });
     if (failure_) std::rethrow_exception(failure_);
+}
+
+void RowHelpers::begin(RowsJob& job) {
+    const std::scoped_lock lock(mutex_);
     job_ = &job;
     changed_.notify_all();
 }
@@ -186,9 +189,10 @@ PictureByRows RowHelpers::render(SceneRenderer& pictures, bool has_alpha, double
     job.passes.emplace_back(settings, least, shares_.size());
     if (has_alpha) job.passes.emplace_back(before_white(settings), least, shares_.size());
     begin(job);
-    share_out(0, [&] { work(job, pictures.renderer(), 0, shares_[0]); });
+    run_guarded(0, [&] { work(job, pictures.renderer(), 0, shares_[0]); });
     threads_.clear();  // waits for them
     job.finishing.rethrow();
+    if (shares_[0].failure.empty()) pictures.renderer().change(settings);
     PictureByRows out{std::move(job.passes.front().picture->frame), {}, std::move(shares_)};
     out.frame.stats = stats_of(job, out.frame.stats, out.shares);
     if (has_alpha) out.alpha = coverage_of(out.frame, job.passes.back().picture->frame);

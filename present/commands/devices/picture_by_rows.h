@@ -22,9 +22,9 @@ struct PictureByRows {
     std::vector<DeviceShare> shares;
 };
 
-/// Whether several devices can make a picture of this renderer: not where OpenGL lights or blends
-/// surfaces, which takes whole pictures.
-bool has_rows_to_share(const Renderer& renderer);
+/// Whether several devices can make one picture: not where OpenGL lights or blends surfaces, which
+/// takes whole pictures.
+bool has_rows_to_share(const Scene& scene, const RenderSettings& settings);
 
 /// What several devices share of a picture.
 struct RowsJob;
@@ -39,19 +39,24 @@ class RowHelpers {
     RowHelpers(const RowHelpers&) = delete;
     RowHelpers& operator=(const RowHelpers&) = delete;
 
-    /// Builds their renderers, in their threads. The scene must outlive this.
+    /// Builds their renderers, in their threads. The scene must outlive this, and stay as it is
+    /// until wait_until_ready() returns.
     void start(const Scene& scene, const RenderSettings& settings);
 
-    /// The picture of SceneRenderer::render() with the same bits, and with `has_alpha` its
-    /// coverage(), once. All devices begin together; rows go to whoever is free. A device that
-    /// fails is left out, and others make its rows again. Throws its error where none is left.
+    /// Waits until each helper has its renderer, or has failed.
+    void wait_until_ready();
+
+    /// Makes the picture of SceneRenderer::render(), bit for bit; with `has_alpha` also its
+    /// coverage(). Call it once, after wait_until_ready(). All devices begin together; rows go to
+    /// whoever is free. A device that fails is left out, and others make its rows again. Throws its
+    /// error where none is left.
     PictureByRows render(SceneRenderer& pictures, bool has_alpha, double time, int frame);
 
  private:
     void count_ready();
     RowsJob* wait_for_job();
     void begin(RowsJob& job);
-    void share_out(std::size_t device, const std::function<void()>& run) noexcept;
+    void run_guarded(std::size_t device, const std::function<void()>& run) noexcept;
     void fail(std::exception_ptr failure);
 
     std::vector<DeviceShare> shares_;  // [0]: the renderer that is helped

@@ -50,6 +50,7 @@ RenderSettings SceneLights::settings_of(const ViewState& state) const {
 
 void SceneLights::replace(RenderWorker& worker, const ViewState& state,
                           const RenderSettings& settings) {
+    lit_.settings.range_budget = asked_.settings.range_budget;
     for (SharedOptions* options : {&asked_, &lit_}) {  // a failure is not tried again
         options->settings.tails = state.settings.tails;
         options->settings.renderer = state.settings.renderer;

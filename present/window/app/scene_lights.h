@@ -21,8 +21,7 @@ class SceneLights {
 
     /// Whether the lights and their tails are those of the state's rig, renderer and shadows.
     bool fit(const ViewState& state) const;
-    /// The state's settings, with the tails that light_scene() chose where the state leaves it to
-    /// them.
+    /// The state's settings. Automatic tails are replaced by those that light_scene() chose.
     RenderSettings settings_of(const ViewState& state) const;
 
     /// Asks for the lights of the state's rig; `settings`: of the next picture.
