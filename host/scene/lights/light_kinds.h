@@ -11,8 +11,8 @@
 
 namespace kilolux {
 
-/// Properties of a kind of light. The loader, its rules, the exporter, ranges and the Python module
-/// read these rows instead of naming kinds.
+/// Properties of a kind of light. The loader, its rules, the exporter and ranges read these rows
+/// instead of naming kinds.
 struct LightKind {
     LightType type;
     std::string_view name;  // in KHR_lights_punctual and in Python
@@ -34,8 +34,8 @@ static_assert([] {
     return true;
 }());  // kind_of() takes the type for the place
 
-/// A number that some kinds of light have, in a file as here. The loader, its rules, the exporter
-/// and the test of a light's usability loop over these.
+/// A number that some kinds of light have, in a file as here; 0 is a file's default. The loader,
+/// its rules, the exporter and the test of a light's usability loop over these.
 struct LightNumber {
     std::string_view path;  // in a light of KHR_lights_punctual
     float SceneLight::*member;
