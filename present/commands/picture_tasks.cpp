@@ -30,10 +30,17 @@ namespace fs = std::filesystem;
 
 std::string noted_time(double time) { return text_of(time) + " s"; }
 
+// The command as a picture notes it: an automatic exposure is that of a sequence's first frame.
+std::string noted_command(const RenderOptions& options) {
+    const auto& frames = options.output.frames;
+    if (!options.shared.automatic_exposure || !frames) return options.command;
+    return fmt::format("{} # exposed by frame {}", options.command, frames->first);
+}
+
 ImageNotes notes_of(const RenderOptions& options, SceneRenderer& pictures,
                     const FrameRecord& record) {
     ImageNotes notes = picture_notes(options.shared, pictures.renderer().device(), record.stats);
-    notes.strings.emplace_back("command", options.command);
+    notes.strings.emplace_back("command", noted_command(options));
     std::erase_if(notes.strings, [](const auto& entry) { return entry.first == "time"; });
     notes.strings.emplace_back("time", noted_time(record.time));
     if (record.comparison) {
@@ -228,7 +235,7 @@ bool PictureTasks::is_done(const PictureTask& task) const {
     if (is_video(task.file)) return has_video_;
     const RenderSettings& s = options_.shared.settings;
     return options_.output.skip_existing &&
-           is_made({task.file, s.width, s.height, options_.command, noted_time(task.time)});
+           is_made({task.file, s.width, s.height, noted_command(options_), noted_time(task.time)});
 }
 
 std::size_t PictureTasks::first_to_do() const {

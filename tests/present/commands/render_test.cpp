@@ -247,6 +247,19 @@ TEST(Render, FilesOfEveryFormatKnowTheirCommand) {
     }
 }
 
+TEST(Render, AnAutomaticExposureBelongsToTheFirstFrame) {
+    const TemporaryFolder folder;
+    const auto made = [&](const char* frames) {
+        return run_kilolux(small_render(
+            folder / "f.#.png", {"--exposure", "auto", "--skip-existing", "--frames", frames}));
+    };
+    ASSERT_EQ(made("2:3").code, 0);
+    EXPECT_EQ(made("2:4").code, 0) << "exposed by frame 2, too";
+    const ChildResult other = made("3:5");
+    EXPECT_EQ(other.code, 1);
+    EXPECT_TRUE(contains(other.err, "f.3.png: holds another picture")) << other.err;
+}
+
 // A glTF file with a light, a camera, and a triangle that moves.
 void write_moving_scene(const fs::path& file) {
     const char* text = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1,2]}],
