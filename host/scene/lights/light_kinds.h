@@ -28,11 +28,11 @@ inline constexpr auto kLightKinds = std::to_array<LightKind>({
     {LightType::directional, "directional", false, true, false, &SceneFeatures::directional_lights},
 });
 static_assert([] {
-    for (std::size_t i = 0; i < kLightKinds.size(); ++i) {
-        if (static_cast<std::size_t>(kLightKinds[i].type) != i) return false;
+    for (const LightKind& kind : kLightKinds) {
+        if (&kind != &kLightKinds[static_cast<std::size_t>(kind.type)]) return false;
     }
     return true;
-}());  // kind_of() takes the type for the place
+}());  // for kind_of()
 
 /// A number that some kinds of light have, in a file as here; 0 is a file's default. The loader,
 /// its rules, the exporter and the test of a light's usability loop over these.
