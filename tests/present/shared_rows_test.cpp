@@ -27,7 +27,7 @@ TEST(SharedRows, CoverThePictureOnce) {
     }
 }
 
-// Devices take turns by a clock: the next rows go to whoever is done first.
+// Devices take turns by a clock: the device that is done first takes the next rows.
 TEST(SharedRows, FastDevicesMakeMoreAndAllEndTogether) {
     constexpr double kMs[] = {0.01, 0.1};  // a row
     SharedRows rows(4000, 16, 2);

@@ -47,9 +47,9 @@ class RowHelpers {
     void wait_until_ready();
 
     /// Makes the picture of SceneRenderer::render(), bit for bit; with `has_alpha` also its
-    /// coverage(). Call it once, after wait_until_ready(). All devices begin together; rows go to
-    /// whoever is free. A device that fails is left out, and others make its rows again. Throws its
-    /// error where none is left.
+    /// coverage(). Call it once, after wait_until_ready(). All devices begin together; a free
+    /// device takes the next rows. A device that fails is left out, and others make its rows again.
+    /// Throws its error where none is left.
     PictureByRows render(SceneRenderer& pictures, bool has_alpha, double time, int frame);
 
  private:

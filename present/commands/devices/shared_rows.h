@@ -11,9 +11,9 @@
 
 namespace kilolux {
 
-/// The rows of a picture, which several devices make at once. Whoever is free takes the next ones:
-/// first a few, then half of its part of what is left by the measured speeds, so that all end
-/// together. All functions may be called by any thread.
+/// The rows of a picture, which several devices make at once. A free device takes the next rows:
+/// first a few, later half of its share of the remaining rows. Shares follow the measured speeds,
+/// so that all devices end together. Any thread may call all functions.
 class SharedRows {
  public:
     /// `least`: rows are taken in multiples of it, see MemoryPlan::least_rows.
