@@ -116,15 +116,21 @@ void GBufferTargets::clear() const {
     glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, kZero.data());
 }
 
-void check_target_size(int width, int height) {
+int largest_target() {
     std::array<GLint, 2> viewport{};
     GLint texture = 0;
     glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
-    const int largest = std::min({viewport[0], viewport[1], texture});
+    return std::min({viewport[0], viewport[1], texture});
+}
+
+void check_target_size(int width, int height) {
+    const int largest = largest_target();
     if (width >= 1 && height >= 1 && width <= largest && height <= largest) return;
-    throw Error(fmt::format("resolution {}x{} pixels: this OpenGL draws 1 to {} a side", width,
-                            height, largest));
+    throw Error(fmt::format(
+        "resolution {}x{} pixels: this OpenGL draws 1 to {} a side; OpenCL draws more (--renderer "
+        "deferred --geometry compute)",
+        width, height, largest));
 }
 
 namespace {

@@ -56,6 +56,9 @@ class GBufferTargets {
     int width_, height_;
 };
 
+/// The most pixels a side that the driver can draw.
+int largest_target();
+
 /// Throws Error unless the driver can draw into targets of this size [pixel].
 void check_target_size(int width, int height);
 

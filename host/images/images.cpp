@@ -41,6 +41,11 @@ std::vector<unsigned char> encode_pixels(const std::string& name, const std::str
     return library().encode(name, format, layout, pixels, pixel_stride);
 }
 
+std::unique_ptr<ImageWriter> open_writer(const std::string& name, const std::string& format,
+                                         const ImageLayout& layout, int file) {
+    return library().writer(name, format, layout, file);
+}
+
 std::unique_ptr<ImageReader> open_image(const std::filesystem::path& file) {
     return library().open_file(file);
 }

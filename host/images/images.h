@@ -61,6 +61,25 @@ std::vector<unsigned char> encode_pixels(const std::string& name, const std::str
                                          std::span<const unsigned char> pixels,
                                          std::size_t pixel_stride);
 
+/// A file of an image that is written from the top down. Nothing is complete before close().
+class ImageWriter {
+ public:
+    virtual ~ImageWriter() = default;
+
+    /// Writes the next `rows` rows: their pixels as encode_pixels() takes them. Throws Error.
+    virtual void write(int rows, std::span<const unsigned char> pixels,
+                       std::size_t pixel_stride) = 0;
+
+    /// Writes the end of the file. Throws Error.
+    virtual void close() = 0;
+};
+
+/// Writes the bytes of encode_pixels() to `file`, an open descriptor at its beginning, which must
+/// outlive the writer. Where all writes but the last are of whole blocks of 32 rows, the bytes are
+/// the same. Throws Error as encode_pixels(), and with the system's reason.
+std::unique_ptr<ImageWriter> open_writer(const std::string& name, const std::string& format,
+                                         const ImageLayout& layout, int file);
+
 /// An image whose header is read.
 class ImageReader {
  public:

@@ -8,6 +8,7 @@ namespace kilolux {
 
 struct ImageLibrary {
     decltype(&encode_pixels) encode;
+    decltype(&open_writer) writer;
     decltype(&open_image) open_file;
     decltype(&open_encoded) open_bytes;
     decltype(&apply_ocio) ocio;

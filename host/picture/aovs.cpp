@@ -48,6 +48,13 @@ void fill_light_count(const DecodedSurfaces& s, const Camera&, Layer& layer) {
     });
 }
 
+// Of a tree its nodes are evaluated, too.
+std::uint64_t most_evaluated(const DecodedSurfaces&, std::uint64_t lights) { return 2 * lights; }
+
+std::uint64_t cluster_count(const DecodedSurfaces& s, std::uint64_t) {
+    return s.grid.cluster_count;
+}
+
 void fill_cluster(const DecodedSurfaces& s, const Camera&, Layer& layer) {
     fill(layer, layer.ids, s.view, [&](std::size_t pixel, std::uint32_t* out) {
         const std::optional<uint> cluster = coarse_cluster_at(s, pixel);
@@ -108,8 +115,16 @@ const std::vector<AovKind>& aov_kinds() {
          {"emissive.R", "emissive.G", "emissive.B"},
          "emissive.R, .G, .B: radiance",
          fill_planes<SURFACE_EMISSIVE>},
-        {"light-count", {"light-count"}, "lights evaluated, integers", fill_light_count},
-        {"cluster", {"cluster"}, "coarse cluster + 1, integers; 0: background", fill_cluster},
+        {"light-count",
+         {"light-count"},
+         "lights evaluated, integers",
+         fill_light_count,
+         most_evaluated},
+        {"cluster",
+         {"cluster"},
+         "coarse cluster + 1, integers; 0: background",
+         fill_cluster,
+         cluster_count},
         {"visibility",
          {"visibility"},
          "share of the lights in reach that are seen",
@@ -130,18 +145,33 @@ const std::vector<AovKind>& aov_kinds() {
     return kinds;
 }
 
+namespace {
+
+const AovKind& kind_of(std::string_view name) {
+    const auto kind = std::ranges::find(aov_kinds(), name, &AovKind::name);
+    if (kind != aov_kinds().end()) return *kind;
+    throw UsageError("--aov: '" + std::string(name) + "' is not a layer");
+}
+
+}  // namespace
+
 std::size_t most_aov_channels() {
     const auto channels = [](const AovKind& kind) { return kind.channels.size(); };
     return std::ranges::max(aov_kinds(), {}, channels).channels.size();
 }
 
 Layer make_aov(std::string_view name, const DecodedSurfaces& surfaces, const Camera& camera) {
-    const auto kind = std::ranges::find(aov_kinds(), name, &AovKind::name);
-    if (kind == aov_kinds().end()) {
-        throw UsageError("--aov: '" + std::string(name) + "' is not a layer");
-    }
-    Layer layer{kind->name, kind->channels};
-    kind->fill(surfaces, camera, layer);
+    const AovKind& kind = kind_of(name);
+    Layer layer{kind.name, kind.channels};
+    kind.fill(surfaces, camera, layer);
+    return layer;
+}
+
+Layer make_aov_of_strip(std::string_view name, const DecodedSurfaces& surfaces,
+                        const Camera& camera, std::uint64_t lights) {
+    Layer layer = make_aov(name, surfaces, camera);
+    const auto most_id = kind_of(name).most_id;
+    if (most_id != nullptr) layer.most_id = most_id(surfaces, lights);
     return layer;
 }
 

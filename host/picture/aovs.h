@@ -19,6 +19,8 @@ struct AovKind {
     /// The layer's values or ids at every pixel. The surfaces have what it shows: check_settings()
     /// refuses settings that do not make it.
     void (*fill)(const DecodedSurfaces& surfaces, const Camera& camera, Layer& layer);
+    /// The largest id that may be in a picture lit by `lights`; null: a float holds all values.
+    std::uint64_t (*most_id)(const DecodedSurfaces& surfaces, std::uint64_t lights) = nullptr;
 };
 const std::vector<AovKind>& aov_kinds();
 
@@ -27,5 +29,9 @@ std::size_t most_aov_channels();
 
 /// One AOV. Throws UsageError for an unknown name.
 Layer make_aov(std::string_view name, const DecodedSurfaces& surfaces, const Camera& camera);
+
+/// The same of a strip of a picture lit by `lights`, with Layer::most_id.
+Layer make_aov_of_strip(std::string_view name, const DecodedSurfaces& surfaces,
+                        const Camera& camera, std::uint64_t lights);
 
 }  // namespace kilolux

@@ -20,6 +20,7 @@ struct Layer {
         channels;  // EXR channel names: {"R","G","B"}, {"Z"}, {"N.X","N.Y","N.Z"}, ...
     std::vector<float> values{};       // channels.size() * width * height; empty for ids
     std::vector<std::uint32_t> ids{};  // likewise; whole numbers: written as UINT, never averaged
+    std::uint64_t most_id = 0;         // that other rows or pictures may have; 0: not known
     bool is_id() const { return !ids.empty(); }
 };
 
@@ -93,6 +94,7 @@ inline double mean_list_length(const PairCounts& counts) {
 struct Frame {
     int width = 0;
     int height = 0;
+    int first_row = 0;                  // of the picture: above 0 in lower strips of it
     std::vector<float> radiance;        // linear HDR Rec. 709, 3 * width * height
     std::vector<float> bloomed;         // radiance with bloom, where there is some
     std::vector<std::uint8_t> display;  // sRGB, 4 * width * height

@@ -55,7 +55,8 @@ void place_layers(std::vector<Layer>& whole, std::vector<Layer>&& band, std::siz
                   std::size_t pixels) {
     if (whole.empty()) {
         for (const Layer& layer : band) {
-            whole.push_back({layer.name, layer.channels});
+            whole.push_back(
+                {.name = layer.name, .channels = layer.channels, .most_id = layer.most_id});
         }
     }
     for (std::size_t i = 0; i < band.size(); ++i) {

@@ -76,12 +76,18 @@ void add_pixels(Pipeline& p, const Shot& shot, SharedPicture& picture) {
     if (!want.pixels()) return;
     DecodedSurfaces pixels = p.reader.pixels({p.last.band, p.current_stages(), shot.camera});
     p.samples.add_counts(pixels);
-    std::vector<Layer> layers;
-    for (const std::string& name : want.aovs) layers.push_back(make_aov(name, pixels, shot.camera));
     Frame& frame = picture.frame;
+    const bool is_strip = frame.height < p.context.settings.height;
+    std::vector<Layer> layers;
+    for (const std::string& name : want.aovs) {
+        layers.push_back(is_strip ? make_aov_of_strip(name, pixels, shot.camera,
+                                                      picture.frame.stats.lights_given)
+                                  : make_aov(name, pixels, shot.camera));
+    }
     const auto width = static_cast<std::size_t>(frame.width);
     const std::scoped_lock lock(picture.placing);
-    place_layers(frame.aovs, std::move(layers), width * pixels.view.first_row,
+    const std::size_t row = pixels.view.first_row - static_cast<std::size_t>(frame.first_row);
+    place_layers(frame.aovs, std::move(layers), width * row,
                  width * static_cast<std::size_t>(frame.height));
     if (want.view != ViewKind::lit) {
         place_surfaces(picture.surfaces, std::move(pixels), frame.height);
@@ -103,10 +109,10 @@ void show_view(Pipeline& p, const Shot& shot, const DecodedSurfaces& surfaces, F
                                      frame.radiance, reference_light});
 }
 
-// Memory for the frame's pixels.
-void allocate(const Pipeline& p, bool shown_only, bool by_rows, Frame& frame) {
+// Memory for the pixels of these rows.
+void allocate(const Pipeline& p, Band rows, bool shown_only, bool by_rows, Frame& frame) {
     const Clock::time_point start = Clock::now();
-    p.picture.resize(frame, shown_only, by_rows);
+    p.picture.resize(frame, rows, shown_only, by_rows);
     const double ms = ms_since(start);
     add_stage_time(frame.stats.stages, kAllocateStage.name, ms);
     frame.stats.frame_ms += ms;
@@ -141,8 +147,9 @@ void render_bands(Pipeline& p, const Shot& shot, SharedPicture& picture, FrameSt
     FrameStages& stages = p.current_stages();
     LitBand& lit = p.last.band;
     const bool is_one = p.samples.is_one() && !stages.blends();
-    const Band rows = shot.rows.value_or(Band{0, frame.height});
-    for (const Band& band : make_bands(frame.height, p.context.memory.band_rows, rows)) {
+    const int height = p.context.settings.height;
+    const Band rows = shot.rows.value_or(Band{0, height});
+    for (const Band& band : make_bands(height, p.context.memory.band_rows, rows)) {
         const Clock::time_point start = Clock::now();
         FrameStats stats;
         const Measured out{p.timer, stats};
@@ -198,7 +205,7 @@ void finish(Pipeline& p, const Shot& shot, SharedPicture& picture, FrameStats& s
 Frame make_frame(Pipeline& p, const Shot& shot) {
     SharedPicture picture;
     const QueueDrain drain(p.context.gpu.queue);
-    allocate(p, !shot.display.empty(), false, picture.frame);
+    allocate(p, {0, p.context.settings.height}, !shot.display.empty(), false, picture.frame);
     render_bands(p, shot, picture, picture.frame.stats);
     finish(p, shot, picture, picture.frame.stats);
     p.samples.keep();
@@ -224,9 +231,19 @@ Frame render_frame(Pipeline& pipeline, const Shot& shot) {
     return soundly(pipeline, [&] { return make_frame(pipeline, shot); });
 }
 
+Frame render_strip(Pipeline& pipeline, const Shot& shot) {
+    return soundly(pipeline, [&] {
+        SharedPicture strip;
+        const QueueDrain drain(pipeline.context.gpu.queue);
+        allocate(pipeline, *shot.rows, false, false, strip.frame);
+        render_bands(pipeline, shot, strip, strip.frame.stats);
+        return std::move(strip.frame);
+    });
+}
+
 std::unique_ptr<SharedPicture> begin_rows(const Pipeline& pipeline) {
     auto picture = std::make_unique<SharedPicture>();
-    allocate(pipeline, false, true, picture->frame);
+    allocate(pipeline, {0, pipeline.context.settings.height}, false, true, picture->frame);
     return picture;
 }
 

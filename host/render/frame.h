@@ -21,8 +21,9 @@ struct Shot {
 /// Renders a frame: see Renderer::render().
 Frame render_frame(Pipeline& pipeline, const Shot& shot);
 
-/// See Renderer::begin_rows(), render_rows() and finish_rows().
+/// See Renderer::begin_rows(), render_strip(), render_rows() and finish_rows().
 std::unique_ptr<SharedPicture> begin_rows(const Pipeline& pipeline);
+Frame render_strip(Pipeline& pipeline, const Shot& shot);
 FrameStats render_rows(Pipeline& pipeline, const Shot& shot, SharedPicture& picture);
 FrameStats finish_rows(Pipeline& pipeline, const Shot& shot, SharedPicture& picture);
 

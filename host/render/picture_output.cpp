@@ -25,11 +25,12 @@ void PictureOutput::set(const RenderSettings& settings) {
     backdrop_ = backdrop_of(settings);
 }
 
-void PictureOutput::resize(Frame& frame, bool shown_only, bool by_rows) const {
+void PictureOutput::resize(Frame& frame, Band rows, bool shown_only, bool by_rows) const {
     const RenderSettings& settings = context_.settings;
     const FrameRequest& want = settings.want;
     frame.width = settings.width;
-    frame.height = settings.height;
+    frame.height = rows.rows;
+    frame.first_row = rows.first_row;
     const auto pixels =
         static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
     if (want.display && !shown_only) frame.display.resize(4 * pixels);
@@ -45,6 +46,7 @@ void PictureOutput::begin(DisplayMemory memory, Frame& frame, bool by_rows) {
     reader_.reset();
     memory_ = memory;
     by_rows_ = by_rows;
+    first_row_ = static_cast<uint>(frame.first_row);
     display_ = {reinterpret_cast<uint*>(frame.display.data()), frame.display.size() / sizeof(uint)};
     if (blooms_at_end() && !by_rows) {
         const RenderSettings& settings = context_.settings;
@@ -110,7 +112,13 @@ std::optional<DisplayTarget> PictureOutput::tonemap(const Radiance& light, Stage
 }
 
 void PictureOutput::read_light(const Radiance& light, std::vector<float>& to, StageTimer& timer) {
-    if (!to.empty()) reader_.read_light(light, to, timer);
+    if (!to.empty()) reader_.read_light({light.planes, in_frame(light.view)}, to, timer);
+}
+
+// The band within the frame's rows.
+View PictureOutput::in_frame(View view) const {
+    view.first_row -= first_row_;
+    return view;
 }
 
 void PictureOutput::read_display(const DisplayTarget& display, StageTimer& timer) {
@@ -127,7 +135,7 @@ void PictureOutput::read_display(const DisplayTarget& display, StageTimer& timer
     } else if (!memory_.empty()) {
         reader_.read_display(display.pixels, display.view, memory_, display.view.stride, timer);
     } else {
-        reader_.read_display(display.pixels, display.view, display_,
+        reader_.read_display(display.pixels, in_frame(display.view), display_,
                              static_cast<std::size_t>(context_.settings.width), timer);
     }
 }

@@ -25,9 +25,9 @@ class PictureOutput {
     /// Takes over other settings. Throws Error.
     void set(const RenderSettings& settings);
 
-    /// Gives the frame's pictures the size that is wanted. `by_rows`: bloom reads the light of a
+    /// Gives the frame's pictures room for these rows. `by_rows`: bloom reads the light of a
     /// picture that is made by rows from Frame::radiance.
-    void resize(Frame& frame, bool shown_only, bool by_rows) const;
+    void resize(Frame& frame, Band rows, bool shown_only, bool by_rows) const;
 
     /// Begins a frame that has its size.
     void begin(DisplayMemory memory, Frame& frame, bool by_rows);
@@ -63,6 +63,7 @@ class PictureOutput {
         return context_.settings.bloom > 0.0f && (by_rows_ || !context_.is_whole());
     }
     void upload(const Frame& frame, const View& view);
+    View in_frame(View view) const;
 
     const RenderContext& context_;
     std::optional<Bloom> bloom_;  // none where bloom is 0
@@ -77,6 +78,7 @@ class PictureOutput {
     DisplayMemory memory_;
     std::span<uint> display_;  // Frame::display
     bool by_rows_ = false;
+    uint first_row_ = 0;  // Frame::first_row
 };
 
 }  // namespace kilolux

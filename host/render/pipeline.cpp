@@ -51,7 +51,8 @@ bool Pipeline::is_built_for(const RenderSettings& wanted) const {
     const RenderSettings& settings = context.settings;
     return wanted.device == settings.device && wanted.geometry == settings.geometry &&
            wanted.anisotropy == settings.anisotropy && wanted.kernels == settings.kernels &&
-           plan_of(context.scene->scene(), wanted) == context.plan;
+           plan_of(context.scene->scene(), wanted) == context.plan &&
+           draws_in_opencl(*context.scene, wanted, context.tuning) == context.draws_in_opencl;
 }
 
 void Pipeline::take(const RenderSettings& next) {
@@ -62,7 +63,8 @@ void Pipeline::take(const RenderSettings& next) {
         context.gpu.budget->limit = plan.device_bytes;
     };
     try {
-        hold(plan_memory(context.scene->scene(), next, context.plan, context.gpu.info));
+        hold(plan_memory(context.scene->scene(), next, context.plan, context.gpu.info,
+                         context.draws_in_opencl));
         take_up_settings();
     } catch (...) {
         context.settings = former;

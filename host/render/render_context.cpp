@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/render/render_context.h"
 
+#include <fmt/format.h>
+
+#include "host/base/log.h"
 #include "host/picture/bands.h"
 #include "host/render/plan/grid_request.h"
 #include "host/render/plan/kernel_choice.h"
@@ -15,10 +18,18 @@ int chosen_anisotropy(const RenderSettings& settings, const DeviceInfo& device) 
     return device.is_cpu ? 1 : kGpuAnisotropy;
 }
 
-bool chooses_compute(const RenderContext& context) {
-    const Geometry geometry = context.settings.geometry;
-    if (geometry != Geometry::automatic) return geometry == Geometry::compute;
-    return context.tuning.geometry == 1 || !context.scene->has_opengl();
+bool chooses_compute(const RenderScene& scene, const RenderSettings& settings,
+                     const Tuning& tuning) {
+    if (settings.geometry != Geometry::automatic) return settings.geometry == Geometry::compute;
+    return tuning.geometry == 1 || settings.width > scene.opengl_limit();
+}
+
+// Says where OpenGL's limit decides.
+void note_limit(const RenderScene& scene, const RenderSettings& settings, const Tuning& tuning) {
+    const bool is_chosen = settings.geometry == Geometry::automatic && tuning.geometry != 1;
+    if (!is_chosen || scene.opengl_limit() == 0) return;
+    note(fmt::format("geometry  OpenCL draws: OpenGL draws {} pixels a side at most",
+                     scene.opengl_limit()));
 }
 
 }  // namespace
@@ -31,10 +42,6 @@ bool RenderContext::shades_display() const {
     return settings.renderer == RendererKind::deferred && want.display && !want.radiance &&
            want.view == ViewKind::lit && is_one_sample && is_all &&
            !plan.kernels.fast_relaxed_math && !plan.kernels.native_math;
-}
-
-bool RenderContext::draws_in_opencl() const {
-    return chooses_compute(*this) && resolves() && !blends();
 }
 
 bool RenderContext::is_whole() const {
@@ -63,14 +70,22 @@ ScenePlan plan_of(const Scene& scene, const RenderSettings& settings) {
     return make_scene_plan(scene, settings, settings.lights.count + scene.lights.size());
 }
 
+bool draws_in_opencl(const RenderScene& scene, const RenderSettings& settings,
+                     const Tuning& tuning) {
+    return resolves_ids(settings.geometry) && !is_forward(settings.renderer) &&
+           !has_blended_surfaces(scene.scene()) && chooses_compute(scene, settings, tuning);
+}
+
 RenderContext make_context(std::shared_ptr<RenderScene> scene, const RenderSettings& settings,
                            const Gpu& opened) {
     const ScenePlan plan = plan_of(scene->scene(), settings);
     Gpu gpu = opened;
-    const MemoryPlan memory = plan_memory(scene->scene(), settings, plan, gpu.info);
-    gpu.budget = std::make_shared<MemoryBudget>(MemoryBudget{memory.device_bytes, 0});
     const Tuning tuning = choose_tuning(describe(gpu.device), settings.kernels).tuning;
-    return {std::move(scene), settings, plan, gpu, tuning, memory};
+    const bool in_opencl = draws_in_opencl(*scene, settings, tuning);
+    if (in_opencl) note_limit(*scene, settings, tuning);
+    const MemoryPlan memory = plan_memory(scene->scene(), settings, plan, gpu.info, in_opencl);
+    gpu.budget = std::make_shared<MemoryBudget>(MemoryBudget{memory.device_bytes, 0});
+    return {std::move(scene), settings, plan, gpu, tuning, memory, in_opencl};
 }
 
 }  // namespace kilolux

@@ -22,6 +22,7 @@ struct RenderContext {
     Gpu gpu;
     Tuning tuning;
     MemoryPlan memory;
+    bool draws_in_opencl = false;  // see kilolux::draws_in_opencl()
     // Made when first asked for: the scene on the device, and its shadow casters.
     std::shared_ptr<SurfaceScene> surfaces{};
     std::shared_ptr<ShadowScene> shadows{};
@@ -34,9 +35,6 @@ struct RenderContext {
     bool resolves() const {
         return resolves_ids(settings.geometry) && !is_forward(settings.renderer);
     }
-    /// Whether OpenCL draws the triangles, too: not where OpenGL blends surfaces over them.
-    bool draws_in_opencl() const;
-
     /// Whether some surfaces blend over others.
     bool blends() const { return has_blended_surfaces(scene->scene()); }
 
@@ -59,7 +57,14 @@ struct RenderContext {
 /// The plan for a scene with its own lights and the generated ones.
 ScenePlan plan_of(const Scene& scene, const RenderSettings& settings);
 
-/// Throws Error as Renderer does. All buffers made with its Gpu are held within the memory plan.
+/// Whether OpenCL draws the triangles, too: not where OpenGL lights or blends surfaces. Automatic
+/// geometry takes what the tuning says is faster, or OpenCL where OpenGL lacks or cannot draw
+/// pictures of that width.
+bool draws_in_opencl(const RenderScene& scene, const RenderSettings& settings,
+                     const Tuning& tuning);
+
+/// Throws Error as Renderer does, before anything large is uploaded where the pictures cannot fit.
+/// All buffers made with its Gpu are held within the memory plan.
 RenderContext make_context(std::shared_ptr<RenderScene> scene, const RenderSettings& settings,
                            const Gpu& opened);
 

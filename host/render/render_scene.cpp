@@ -3,6 +3,7 @@
 
 #include "host/base/error.h"
 #include "host/base/log.h"
+#include "raster/gbuffer_targets.h"
 
 namespace kilolux {
 
@@ -40,16 +41,16 @@ std::size_t RenderScene::zero_normals() const {
     return *zero_normals_;
 }
 
-bool RenderScene::has_opengl() const {
-    if (lacks_opengl_) return false;
-    if (!own_context_ || context_) return true;
+int RenderScene::opengl_limit() const {
+    if (lacks_opengl_) return 0;
     try {
-        context_.emplace(GlContext::headless());
+        if (own_context_ && !context_) context_.emplace(GlContext::headless());
+        return largest_target();
     } catch (const Error& error) {
         lacks_opengl_ = true;
         warn(std::string("OpenCL draws in place of OpenGL: ") + error.what());
+        return 0;
     }
-    return !lacks_opengl_;
 }
 
 const GpuScene& RenderScene::meshes(GpuSceneUse use, int anisotropy) const {

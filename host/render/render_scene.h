@@ -37,8 +37,9 @@ class RenderScene {
     /// The meshes for this use, uploaded when first asked for. `anisotropy`: see GpuScene. Throws
     /// Error where there is no OpenGL.
     const GpuScene& meshes(GpuSceneUse use, int anisotropy) const;
-    /// Whether OpenGL can be used. Makes the context; a warning says why there is none.
-    bool has_opengl() const;
+    /// The most pixels a side that OpenGL draws; 0 where it cannot be used, with a warning that
+    /// says why. Makes the context.
+    int opengl_limit() const;
     std::size_t zero_normals() const;  // vertices
 
  private:

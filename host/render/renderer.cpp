@@ -2,6 +2,7 @@
 #include "host/render/renderer.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cstring>
 #include <utility>
 
@@ -11,13 +12,6 @@
 
 namespace kilolux {
 namespace {
-
-// Throws when the pictures cannot fit, before anything large is uploaded.
-void check_memory(const Scene& scene, const RenderSettings& settings) {
-    const cl::Device device =
-        settings.opened ? settings.opened->device : choose_device(settings.device);
-    plan_memory(scene, settings, plan_of(scene, settings), describe(device));
-}
 
 // Throws for a picture in bands: the device has only the last one.
 void require_whole(const Pipeline& pipeline, const char* what) {
@@ -59,7 +53,6 @@ Renderer::Renderer(const Scene& scene, const RenderSettings& settings, GlSource 
     : Renderer(shared_scene(scene, gl), settings) {}
 Renderer::Renderer(std::shared_ptr<RenderScene> scene, const RenderSettings& settings)
     : pipeline_(in_stage("renderer", [&] {
-          check_memory(scene->scene(), settings);
           scene->make_current();
           return std::make_unique<Pipeline>(std::move(scene), settings, open_device(settings));
       })) {}
@@ -101,6 +94,24 @@ Frame Renderer::render_to(std::span<uint> pixels, const Camera& camera, double t
         frame.display.clear();
         return frame;
     });
+}
+
+Frame Renderer::render_strip(const Camera& camera, double time, Band rows) {
+    const RenderSettings& s = settings();
+    if (s.bloom > 0.0f || s.want.view != ViewKind::lit) {
+        throw Error("render: bloom and views need the whole picture; a strip has none");
+    }
+    return in_stage("render", [&] {
+        return kilolux::render_strip(*pipeline_, {camera, time, {}, 0, rows});
+    });
+}
+
+std::vector<Band> Renderer::strips() const {
+    const int height = settings().height;
+    const int rows = memory().strip_rows;
+    std::vector<Band> out;
+    for (int row = 0; row < height; row += rows) out.push_back({row, std::min(rows, height - row)});
+    return out;
 }
 
 std::unique_ptr<SharedPicture> Renderer::begin_rows() const {

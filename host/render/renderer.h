@@ -82,6 +82,15 @@ class Renderer {
     /// bands, or of another view, is made whole.
     Frame render_to(std::span<uint> pixels, const Camera& camera, double time, int samples = 0);
 
+    /// Rows of the picture of render(), as a frame of their own, with its bits and what they took:
+    /// see MemoryPlan::strip_rows. No other than their pixels are in memory. Not with bloom and
+    /// views, which need the whole picture. Blocks; calls check_interrupt() as render() does.
+    Frame render_strip(const Camera& camera, double time, Band rows);
+
+    /// The strips of a picture from the top; one, the whole, unless it is too large for the host or
+    /// for one piece.
+    std::vector<Band> strips() const;
+
     /// Begins a picture that this renderer and others make by rows, with render()'s bits: renderers
     /// of the same scene with the same settings, but for the device.
     std::unique_ptr<SharedPicture> begin_rows() const;

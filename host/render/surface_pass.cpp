@@ -65,7 +65,7 @@ SurfacePass::SurfacePass(RenderContext& context) : context_(context), bridge_(co
         context.surfaces =
             std::make_shared<SurfaceScene>(context.gpu, context.tuning, scene, features);
     }
-    if (context.draws_in_opencl()) {
+    if (context.draws_in_opencl) {
         triangles_.emplace(gpu, raster_tuning(context), scene, features);
     } else {
         if (context.settings.geometry == Geometry::compute) {

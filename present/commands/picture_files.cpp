@@ -6,6 +6,7 @@
 #include "host/base/system/atomic_write.h"
 #include "present/cli/frame_summary.h"
 #include "present/commands/made_picture.h"
+#include "present/commands/picture_strips.h"
 #include "present/image/display_picture.h"
 
 namespace kilolux {
@@ -31,26 +32,6 @@ std::vector<float> covered_colours(const RenderOptions& options, const Frame& fr
         if (alpha[i / 3] < 1.0f) whole[i] = colours[i];
     }
     return whole;
-}
-
-// The renderer's display picture has 8 bits and our tone curves; other pictures are made here.
-ImageOptions image_options(const RenderOptions& options, const RenderedPicture& picture) {
-    const OutputOptions& out = options.output;
-    const bool for_the_eye = is_for_the_eye(picture.task.file);
-    ImageOptions image{out.encoding};
-    image.alpha = picture.alpha;
-    if (for_the_eye && wants_own_display(options)) {
-        RenderSettings settings = options.shared.settings;
-        settings.background = options.shared.shown_background;
-        image.display = options.shared.show_error
-                            ? display_codes(picture.frame)
-                            : display_colours(picture.frame, settings, out.ocio);
-    }
-    if (for_the_eye && options.has_alpha) {
-        image.display =
-            covered_colours(options, picture.frame, picture.alpha, std::move(image.display));
-    }
-    return image;
 }
 
 // Codes a picture; the result writes it to its file, or appends it to the video.
@@ -106,18 +87,34 @@ std::size_t bytes_of(const Frame& frame) {
     return bytes + frame.display.size();
 }
 
-// How many pictures like this one are held. Two a thread: while one is coded the next one waits, so
-// that no thread waits for the device.
-std::size_t most_held(const RenderedPicture& picture, std::size_t pictures,
-                      const MemoryPlan& memory) {
-    constexpr std::size_t kCopies = 3;  // of its pixels while it is coded
-    const std::size_t bytes = bytes_of(picture.frame) + picture.alpha.size() * sizeof(float) +
-                              (picture.difference ? bytes_of(*picture.difference) : 0);
-    if (pictures < 2) return 0;
-    return std::min<std::size_t>(2 * coding_threads(), memory.held_bytes / (kCopies * bytes));
+}  // namespace
+
+// The renderer's display picture has 8 bits and our tone curves; other pictures are made here.
+ImageOptions image_options(const RenderOptions& options, const RenderedPicture& picture) {
+    const OutputOptions& out = options.output;
+    const bool for_the_eye = is_for_the_eye(picture.task.file);
+    ImageOptions image{out.encoding};
+    image.alpha = picture.alpha;
+    if (for_the_eye && wants_own_display(options)) {
+        RenderSettings settings = options.shared.settings;
+        settings.background = options.shared.shown_background;
+        image.display = options.shared.show_error
+                            ? display_codes(picture.frame)
+                            : display_colours(picture.frame, settings, out.ocio);
+    }
+    if (for_the_eye && options.has_alpha) {
+        image.display =
+            covered_colours(options, picture.frame, picture.alpha, std::move(image.display));
+    }
+    return image;
 }
 
-}  // namespace
+std::size_t most_held(const RenderedPicture& picture, std::size_t bytes) {
+    constexpr std::size_t kCopies = 3;  // of its pixels while it is coded
+    const std::size_t one = bytes_of(picture.frame) + picture.alpha.size() * sizeof(float) +
+                            (picture.difference ? bytes_of(*picture.difference) : 0);
+    return std::min<std::size_t>(2 * coding_threads(), bytes / (kCopies * one));
+}
 
 void visit_settings(RenderOptions& options, const SettingVisitor& visit) {
     visit_settings(options.shared, visit);
@@ -141,6 +138,7 @@ FrameRequest request_of(const RenderOptions& options, const FrameRequest& asked)
     want.display = for_the_eye || !out.reference.empty();
     want.radiance = !for_the_eye || own_display || !out.reference.empty();
     want.bloomed = own_display;
+    want.strips = can_make_strips(options);
     want.counts =
         !out.stats.empty() || std::ranges::find(want.aovs, "light-count") != want.aovs.end();
     return want;
@@ -161,11 +159,16 @@ PictureFiles::~PictureFiles() {
 }
 
 void PictureFiles::add(RenderedPicture picture, FrameRecord record) {
-    if (!writer_) writer_.emplace(most_held(picture, count_, memory_));
+    if (!writer_) writer_.emplace(count_ < 2 ? 0 : most_held(picture, memory_.held_bytes));
     const auto shared = std::make_shared<RenderedPicture>(std::move(picture));
     writer_->add([this, shared] { return coded(options_, *shared, video_.get()); });
     records_.push_back(std::move(record));
     count_written();
+}
+
+void PictureFiles::add_written(FrameRecord record) {
+    count(written_, std::move(record));
+    progress_.advance();
 }
 
 void PictureFiles::skip() {

@@ -63,6 +63,14 @@ bool is_for_the_eye(const std::filesystem::path& output);
 /// Whether display colours are made on the host, of 16 bits or by OpenColorIO.
 bool wants_own_display(const RenderOptions& options);
 
+/// How the picture is stored, with what is not in its frame: display colours of 16 bits or by
+/// OpenColorIO, and alpha.
+ImageOptions image_options(const RenderOptions& options, const RenderedPicture& picture);
+
+/// How many pictures like this one fit into `bytes` until they are written, at most two for each of
+/// oneTBB's threads: while one is coded the next one waits.
+std::size_t most_held(const RenderedPicture& picture, std::size_t bytes);
+
 /// The results that files and the comparison need beside those that are asked for. Counting useful
 /// evaluations takes a pass of its own.
 FrameRequest request_of(const RenderOptions& options, const FrameRequest& asked);
@@ -80,6 +88,9 @@ class PictureFiles {
 
     /// Takes a picture. Throws Error where it or an earlier one cannot be coded or written.
     void add(RenderedPicture picture, FrameRecord record);
+
+    /// Counts a picture that is written.
+    void add_written(FrameRecord record);
 
     /// Counts a picture that was there already.
     void skip();

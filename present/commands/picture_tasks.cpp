@@ -15,11 +15,14 @@
 #include "host/base/log.h"
 #include "host/base/system/interrupt.h"
 #include "host/base/text.h"
+#include "host/picture/frame_bands.h"
 #include "present/cli/frame_summary.h"
 #include "present/cli/option_values.h"
+#include "present/commands/devices/picture_by_rows.h"
 #include "present/commands/devices/shared_tasks.h"
 #include "present/commands/made_picture.h"
 #include "present/commands/picture_advice.h"
+#include "present/commands/picture_strips.h"
 #include "present/image/comparison.h"
 #include "present/video/video_file.h"
 
@@ -123,12 +126,71 @@ struct Job {
     bool measures_devices;  // for the limits of --stats: where one device is all there is
 };
 
+// Names every kind of device that makes a picture.
+void note_devices(ImageNotes& notes, const std::vector<DeviceShare>& shares) {
+    std::vector<std::string> kinds;
+    for (const DeviceShare& share : shares) {
+        const std::string kind = share.info.name + ", " + share.info.version;
+        if (std::ranges::count(kinds, kind) == 0) kinds.push_back(kind);
+    }
+    for (auto& [name, value] : notes.strings) {
+        if (name == "device") value = fmt::format("{}", fmt::join(kinds, "; "));
+    }
+}
+
+// Makes a task's picture strip by strip and writes it. `shares` get what the devices do: of the
+// renderer's alone, or of `helpers`, too.
+FrameRecord write_strips(const RenderOptions& options, SceneRenderer& pictures,
+                         const PictureTask& task, DeviceHelpers* helpers,
+                         std::vector<DeviceShare>& shares) {
+    pictures.place(task.time, task.frame);
+    Renderer& renderer = pictures.renderer();
+    FrameRecord record{task.frame, task.time, output_name(task.file), {}, std::nullopt};
+    const auto notes = [&](const RenderedPicture& first) {
+        note_layers(options, first.frame, task.file);
+        record.stats = first.frame.stats;
+        ImageNotes out = notes_of(options, pictures, record);
+        if (helpers != nullptr) note_devices(out, helpers->shares());
+        return out;
+    };
+    StripFile file(options, task, renderer.memory(), renderer.strips().size(), notes);
+    StripsJob job(renderer, pictures.camera(), task.time, options.has_alpha,
+                  helpers != nullptr ? helpers->shares().size() : 1,
+                  [&file](RenderedPicture strip) { file.add(std::move(strip)); });
+    if (helpers != nullptr) {
+        shares = helpers->run(job, renderer);
+    } else {
+        shares.resize(1);
+        on_device([&] { job.work(renderer, 0, shares.front()); });
+        job.rethrow();
+    }
+    file.finish();
+    std::vector<FrameStats> parts;
+    for (const DeviceShare& share : shares) {
+        if (share.rows > 0) parts.push_back(share.stats);
+    }
+    record.stats = joined(parts);
+    return record;
+}
+
+void make_strips(const Job& job, SceneRenderer& pictures, DeviceShare& share, std::size_t i) {
+    std::vector<DeviceShare> own;
+    FrameRecord record = write_strips(job.options, pictures, job.tasks[i], nullptr, own);
+    if (i == job.first) advise(pictures, record);
+    if (job.measures_devices) pictures.fill_limits(record);
+    ++share.pictures;
+    job.queue.deliver(i, [&job, record = std::move(record)]() mutable {
+        job.files.add_written(std::move(record));
+    });
+}
+
 void make_picture(const Job& job, SceneRenderer& pictures, DeviceShare& share, std::size_t i) {
     const auto picture = std::make_shared<RenderedPicture>();
     picture->task = job.tasks[i];
     if (job.tasks.is_done(picture->task)) {
         return job.queue.deliver(i, [&job] { job.files.skip(); });
     }
+    if (pictures.renderer().strips().size() > 1) return make_strips(job, pictures, share, i);
     FrameRecord record = render_task(job.options, pictures, *picture, [&](RenderedPicture& made) {
         const PictureTask& task = made.task;
         made.frame = on_device([&] { return pictures.render(task.time, task.frame); });
@@ -156,18 +218,6 @@ void make_pictures(const Job& job, SceneRenderer& pictures, DeviceShare& share) 
         } catch (...) {
             return job.queue.fail(std::current_exception());
         }
-    }
-}
-
-// Names every kind of device that made rows of the picture.
-void note_devices(ImageNotes& notes, const std::vector<DeviceShare>& shares) {
-    std::vector<std::string> kinds;
-    for (const DeviceShare& share : shares) {
-        const std::string kind = share.info.name + ", " + share.info.version;
-        if (share.rows > 0 && std::ranges::count(kinds, kind) == 0) kinds.push_back(kind);
-    }
-    for (auto& [name, value] : notes.strings) {
-        if (name == "device") value = fmt::format("{}", fmt::join(kinds, "; "));
     }
 }
 
@@ -298,19 +348,29 @@ MadePictures render_tasks(const RenderOptions& options, const PictureTasks& task
     return {files.finish(), std::move(shares)};
 }
 
-MadePictures render_by_rows(const RenderOptions& options, const PictureTask& task,
-                            SceneRenderer& pictures, RowHelpers& helpers) {
+MadePictures render_with_helpers(const RenderOptions& options, const PictureTask& task,
+                                 SceneRenderer& pictures, DeviceHelpers& helpers) {
     PictureFiles files(options, 1, pictures.renderer());
+    MadePictures made;
+    if (pictures.renderer().strips().size() > 1) {
+        FrameRecord record = write_strips(options, pictures, task, &helpers, made.shares);
+        advise(pictures, record);
+        files.add_written(std::move(record));
+        made.written = files.finish();
+        return made;
+    }
     RenderedPicture picture;
     picture.task = task;
-    MadePictures made;
     FrameRecord record = render_task(options, pictures, picture, [&](RenderedPicture& out) {
-        PictureByRows by_rows = helpers.render(pictures, options.has_alpha, task.time, task.frame);
+        PictureByRows by_rows =
+            render_by_rows(helpers, pictures, options.has_alpha, task.time, task.frame);
         out.frame = std::move(by_rows.frame);
         out.alpha = std::move(by_rows.alpha);
         made.shares = std::move(by_rows.shares);
     });
-    note_devices(picture.notes, made.shares);
+    std::vector<DeviceShare> makers = made.shares;
+    std::erase_if(makers, [](const DeviceShare& share) { return share.rows == 0; });
+    note_devices(picture.notes, makers);
     advise(pictures, record);
     files.add(std::move(picture), std::move(record));
     made.written = files.finish();

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "present/commands/devices/picture_by_rows.h"
+#include "present/commands/devices/device_helpers.h"
 #include "present/commands/picture_files.h"
 #include "present/commands/scene_renderer.h"
 
@@ -49,8 +49,8 @@ MadePictures render_tasks(const RenderOptions& options, const PictureTasks& task
                           std::size_t first, SceneRenderer& pictures, const FirstPicture& start,
                           const std::vector<std::string>& more_devices);
 
-/// Renders and writes a single picture, which several devices make by rows.
-MadePictures render_by_rows(const RenderOptions& options, const PictureTask& task,
-                            SceneRenderer& pictures, RowHelpers& helpers);
+/// Renders and writes a single picture, which several devices make by rows or strips.
+MadePictures render_with_helpers(const RenderOptions& options, const PictureTask& task,
+                                 SceneRenderer& pictures, DeviceHelpers& helpers);
 
 }  // namespace kilolux

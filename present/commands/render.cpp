@@ -16,6 +16,7 @@
 #include "present/cli/option_values.h"
 #include "present/cli/options.h"
 #include "present/commands/camera_motion.h"
+#include "present/commands/devices/picture_by_rows.h"
 #include "present/commands/made_picture.h"
 #include "present/commands/picture_files.h"
 #include "present/commands/picture_tasks.h"
@@ -132,7 +133,7 @@ void render_from(RenderOptions& options, const PictureTasks& tasks, std::size_t 
     };
     FirstPicture start{request_of(options, options.shared.settings.want), first.time, first.frame,
                        camera};
-    RowHelpers* helpers = nullptr;  // of a single picture
+    DeviceHelpers* helpers = nullptr;  // of a single picture
     if (!more_devices.empty() && tasks.size() - begin == 1) {
         start.on_lit = [&](const Scene& scene,
                            const RenderSettings& settings) -> std::shared_ptr<void> {
@@ -141,7 +142,7 @@ void render_from(RenderOptions& options, const PictureTasks& tasks, std::size_t 
                     "device  OpenGL lights or blends surfaces: one device makes the whole picture");
                 return nullptr;
             }
-            auto made = std::make_shared<RowHelpers>(more_devices);
+            auto made = std::make_shared<DeviceHelpers>(more_devices);
             made->start(scene, settings);
             helpers = made.get();
             return made;
@@ -154,7 +155,7 @@ void render_from(RenderOptions& options, const PictureTasks& tasks, std::size_t 
     if (options.shared.automatic_exposure) expose_automatically(options, pictures);
     report_pictures(options, pictures,
                     helpers != nullptr
-                        ? render_by_rows(options, first, pictures, *helpers)
+                        ? render_with_helpers(options, first, pictures, *helpers)
                         : render_tasks(options, tasks, begin, pictures, start, more_devices));
 }
 

@@ -26,7 +26,9 @@ void check_budget(SharedOptions& options, const BudgetOptions& budget) {
 }
 
 RenderSettings before_white(RenderSettings settings) {
+    const bool strips = settings.want.strips;
     settings.want = radiance_only();
+    settings.want.strips = strips;
     settings.background = std::make_shared<const Environment>(Environment{1, 1, {glm::vec3(1.0f)}});
     return settings;
 }
@@ -75,11 +77,17 @@ void SceneRenderer::expose_automatically(double time, int frame, const std::stri
     const RenderSettings wanted = renderer_->settings();
     RenderSettings settings = wanted;
     settings.want = radiance_only();
+    settings.want.strips = true;
+    settings.bloom = 0.0f;
     settings.background.reset();
     renderer_->change(settings);
-    const Frame picture = render(time, frame);
+    place(time, frame);
+    ExposureMeter meter;
+    for (const Band& rows : renderer_->strips()) {
+        meter.add(renderer_->render_strip(camera_, time, rows).radiance);
+    }
     settings = wanted;
-    settings.exposure = options_.settings.exposure = automatic_exposure(picture.radiance);
+    settings.exposure = options_.settings.exposure = meter.exposure();
     renderer_->change(settings);
     note(fmt::format("exposure {} EV (automatic{}): --exposure {} makes it again",
                      settings.exposure, of_what, settings.exposure));

@@ -48,11 +48,6 @@ const Format& format_of(const std::filesystem::path& file) {
                      joined(known) + did_you_mean(extension, known));
 }
 
-std::vector<unsigned char> encode(const std::filesystem::path& file, const ImageLayout& layout,
-                                  std::span<const unsigned char> pixels, std::size_t pixel_stride) {
-    return encode_pixels(file.string(), format_of(file).plugin, layout, pixels, pixel_stride);
-}
-
 void add_channels(ImageLayout& layout, std::initializer_list<const char*> names, SampleType type) {
     for (const char* name : names) layout.channels.push_back({name, type});
 }
@@ -60,17 +55,16 @@ void add_channels(ImageLayout& layout, std::initializer_list<const char*> names,
 constexpr int kPaethFilter = 0x80;  // libpng's PNG_FILTER_PAETH: see kPngLevel
 
 // Display codes as RGB, or RGBA where the options have alpha.
-ImageLayout display_layout(const std::filesystem::path& file, const Frame& frame,
-                           const ImageOptions& options) {
+void add_display(ImageLayout& layout, const std::filesystem::path& file,
+                 const ImageOptions& options) {
     const SampleType type = options.bits == 16 ? SampleType::uint16 : SampleType::uint8;
-    ImageLayout layout{frame.width, frame.height, {}};
     add_channels(layout, {"R", "G", "B"}, type);
     if (std::string_view(format_of(file).plugin) == "tiff") {
         // Exif's form of an unknown date; without one OpenImageIO writes the present time. No
         // colour space is written: readers take a TIFF without a profile for sRGB, and with "sRGB"
         // OpenImageIO 2.4 writes an Exif directory that breaks the file.
         layout.attributes = {{"Compression", "zip"}, {"DateTime", "    :  :     :  :  "}};
-        return layout;
+        return;
     }
     if (!options.alpha.empty()) add_channels(layout, {"A"}, type);
     layout.attributes = {{"oiio:ColorSpace", "sRGB"},
@@ -78,7 +72,6 @@ ImageLayout display_layout(const std::filesystem::path& file, const Frame& frame
                          {"png:compressionLevel", options.png_level},
                          {"png:filter", kPaethFilter},
                          {"CompressionQuality", options.jpeg_quality}};
-    return layout;
 }
 
 // Codes of 0..1, correctly rounded.
@@ -105,24 +98,25 @@ std::vector<float> with_alpha(const ImageOptions& options) {
     return out;
 }
 
-std::vector<unsigned char> encode_display(const std::filesystem::path& file,
-                                          const ImageLayout& layout, const Frame& frame,
-                                          const ImageOptions& options) {
-    if (options.display.empty()) return encode(file, layout, frame.display, 4);
+void put_display(FileRows& out, const Frame& frame, const ImageOptions& options) {
+    if (options.display.empty()) {
+        out.pixels = frame.display;
+        out.pixel_stride = 4;
+        return;
+    }
     const std::vector<float> colours = with_alpha(options);
-    const std::size_t bytes = layout.pixel_bytes();
-    if (options.bits == 16) return encode(file, layout, codes_of<std::uint16_t>(colours), bytes);
-    return encode(file, layout, codes_of<std::uint8_t>(colours), bytes);
+    out.own =
+        options.bits == 16 ? codes_of<std::uint16_t>(colours) : codes_of<std::uint8_t>(colours);
 }
 
 // CIE xy of red, green, blue and white of Rec. 709 (ITU-R BT.709-6, 1.3 and 1.4).
 constexpr std::array kRec709 = {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
 
-void describe_camera(ImageLayout& layout, const Camera& camera, const Frame& frame) {
+void describe_camera(ImageLayout& layout, const Camera& camera) {
     glm::dmat4 view_from_world(glm::transpose(camera.world_from_view));
     view_from_world[3] = glm::dvec4(glm::dmat3(view_from_world) * -camera.position, 1.0);
     const glm::dmat4 clip_from_world =
-        clip_from_view(camera, frame.width, frame.height) * view_from_world;
+        clip_from_view(camera, layout.width, layout.height) * view_from_world;
     layout.attributes.emplace_back("worldToCamera", glm::mat4(view_from_world));
     layout.attributes.emplace_back("worldToNDC", glm::mat4(clip_from_world));
 }
@@ -162,8 +156,8 @@ bool is_uint(const Layer& layer, const ImageOptions& options) {
 }
 
 // The metadata and the channels of an EXR file: colour, then every layer's, in order.
-ImageLayout exr_layout(const Frame& frame, const ImageNotes& notes, const ImageOptions& options) {
-    ImageLayout layout{frame.width, frame.height, {}};
+void add_linear(ImageLayout& layout, const Frame& frame, const ImageNotes& notes,
+                const ImageOptions& options) {
     const SampleType colour = options.half_colour ? SampleType::half : SampleType::float32;
     add_channels(layout, {"R", "G", "B"}, colour);
     if (!options.alpha.empty()) add_channels(layout, {"A"}, colour);
@@ -179,22 +173,23 @@ ImageLayout exr_layout(const Frame& frame, const ImageNotes& notes, const ImageO
     // Without a date OpenImageIO writes the present time as capDate. A date that is not a text is
     // left out of the file.
     layout.attributes.emplace_back("DateTime", 0);
-    if (notes.camera) describe_camera(layout, *notes.camera, frame);
-    return layout;
+    if (notes.camera) describe_camera(layout, *notes.camera);
 }
 
 // Pixels in that layout: interleaved, each channel in its own format.
 std::vector<unsigned char> exr_pixels(const Frame& frame, const ImageLayout& layout,
                                       const ImageOptions& options) {
     const std::size_t pixel_bytes = layout.pixel_bytes();
-    std::vector<unsigned char> pixels(pixel_bytes * layout.pixels());
+    const std::size_t count_of_pixels =
+        static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
+    std::vector<unsigned char> pixels(pixel_bytes * count_of_pixels);
     std::size_t channel = 0;
     std::size_t offset = 0;
     const auto add = [&](const auto& values, std::size_t count) {
-        if (values.size() != count * layout.pixels()) {
+        if (values.size() != count * count_of_pixels) {
             throw Error(fmt::format("EXR: channel '{}' has {} values, needs {}",
                                     layout.channels[channel].name, values.size() / count,
-                                    layout.pixels()));
+                                    count_of_pixels));
         }
         place(pixels, offset, pixel_bytes, values, count);
         offset += count * sizeof values[0];
@@ -226,7 +221,8 @@ std::vector<unsigned char> exr_pixels(const Frame& frame, const ImageLayout& lay
 
 bool float_holds(const Layer& layer) {
     constexpr std::uint32_t kMost = 1u << std::numeric_limits<float>::digits;
-    return std::ranges::all_of(layer.ids, [](std::uint32_t id) { return id <= kMost; });
+    return layer.most_id <= kMost &&
+           std::ranges::all_of(layer.ids, [](std::uint32_t id) { return id <= kMost; });
 }
 
 std::vector<std::string> image_extensions() {
@@ -254,27 +250,59 @@ bool holds_layers(const std::filesystem::path& file) {
 
 std::vector<unsigned char> encode_image(const std::filesystem::path& file, const Frame& frame,
                                         const ImageNotes& notes, const ImageOptions& options) {
+    const FileRows rows = file_rows(file, frame.height, frame, notes, options);
+    std::vector<unsigned char> out = encode_pixels(file.string(), format_of(file).plugin,
+                                                   rows.layout, rows.pixels, rows.pixel_stride);
+    if (format_of(file).notes == NoteForm::comments) insert_comments(out, notes);
+    return out;
+}
+
+FileRows file_rows(const std::filesystem::path& file, int height, const Frame& frame,
+                   const ImageNotes& notes, const ImageOptions& options) {
     const bool display = image_meaning(file) == ImageMeaning::display;
-    ImageLayout layout{frame.width, frame.height, {}};
+    FileRows out{{frame.width, height, {}}, frame.height};
+    ImageLayout& layout = out.layout;
     if (display) {
-        layout = display_layout(file, frame, options);
+        add_display(layout, file, options);
     } else if (holds_layers(file)) {
-        layout = exr_layout(frame, notes, options);
+        add_linear(layout, frame, notes, options);
     } else {
         add_channels(layout, {"R", "G", "B"}, SampleType::float32);
     }
     layout.attributes.emplace_back("Software", "kilolux " + version());
     add_notes(layout, notes, format_of(file).notes);
-    if (display) return encode_display(file, layout, frame, options);
+    out.pixel_stride = layout.pixel_bytes();
     const bool has_more = !options.alpha.empty() || !frame.aovs.empty() || options.half_colour;
-    if (holds_layers(file) && has_more) {
-        return encode(file, layout, exr_pixels(frame, layout, options), layout.pixel_bytes());
+    if (display) {
+        put_display(out, frame, options);
+    } else if (holds_layers(file) && has_more) {
+        out.own = exr_pixels(frame, layout, options);
+    } else {
+        out.pixels = {reinterpret_cast<const unsigned char*>(frame.radiance.data()),
+                      frame.radiance.size() * sizeof(float)};
     }
-    const auto* bytes = reinterpret_cast<const unsigned char*>(frame.radiance.data());
-    std::vector<unsigned char> out =
-        encode(file, layout, {bytes, frame.radiance.size() * sizeof(float)}, 3 * sizeof(float));
-    if (format_of(file).notes == NoteForm::comments) insert_comments(out, notes);
+    if (!out.own.empty()) out.pixels = out.own;
     return out;
+}
+
+bool can_stream(const std::filesystem::path& file) {
+    return format_of(file).notes != NoteForm::comments;  // which are inserted into the bytes
+}
+
+ImageStream::ImageStream(std::filesystem::path file) : file_(std::move(file)), out_(file_) {}
+
+void ImageStream::write(const FileRows& rows) {
+    if (!writer_) {
+        writer_ =
+            open_writer(file_.string(), format_of(file_).plugin, rows.layout, out_.descriptor());
+    }
+    writer_->write(rows.rows, rows.pixels, rows.pixel_stride);
+}
+
+void ImageStream::commit() {
+    writer_->close();
+    writer_.reset();
+    out_.commit();
 }
 
 std::string note_in(const std::filesystem::path& file, const ImageLayout& layout,

@@ -3,17 +3,19 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "host/base/system/atomic_write.h"
+#include "host/images/images.h"
 #include "host/picture/frame.h"
 #include "host/scene/camera.h"
 
 namespace kilolux {
-
-struct ImageLayout;
 
 /// The meaning of a file's pixels: sRGB for display (PNG, JPEG, TIFF) or linear scene light (EXR,
 /// HDR).
@@ -75,7 +77,7 @@ struct ImageOptions : Encoding {
     std::vector<float> display{};  // RGB from 0 to 1 in place of Frame::display; 16 bits need it
 };
 
-/// Whether floats hold a layer's ids exactly.
+/// Whether floats hold a layer's ids exactly, and those that it may have elsewhere.
 bool float_holds(const Layer& layer);
 
 /// A frame as file bytes in the format of the extension. The same frame gives the same bytes. PNG,
@@ -84,6 +86,41 @@ bool float_holds(const Layer& layer);
 /// with OpenImageIO's reason.
 std::vector<unsigned char> encode_image(const std::filesystem::path& file, const Frame& frame,
                                         const ImageNotes& notes, const ImageOptions& options);
+
+/// Some rows of a picture in the form of its file; they refer to the frame.
+struct FileRows {
+    ImageLayout layout;  // of the whole picture
+    int rows = 0;
+    std::vector<unsigned char> own{};  // where the frame's form is another
+    std::span<const unsigned char> pixels{};
+    std::size_t pixel_stride = 0;  // [byte]
+};
+
+/// A frame's rows in a picture of `height` rows. Throws Error.
+FileRows file_rows(const std::filesystem::path& file, int height, const Frame& frame,
+                   const ImageNotes& notes, const ImageOptions& options);
+
+/// Whether ImageStream can write the format.
+bool can_stream(const std::filesystem::path& file);
+
+/// A picture's file that is written from the top down: the bytes of encode_image() where strips but
+/// the last one are whole blocks of 32 rows. Whole or not at all.
+class ImageStream {
+ public:
+    /// Throws Error where the file cannot be written.
+    explicit ImageStream(std::filesystem::path file);
+
+    /// Writes the next rows. Throws Error.
+    void write(const FileRows& rows);
+
+    /// Writes the end. Throws Error.
+    void commit();
+
+ private:
+    std::filesystem::path file_;
+    AtomicFile out_;
+    std::unique_ptr<ImageWriter> writer_;  // from the first rows on
+};
 
 /// Throws Error where the file cannot be written or images cannot be encoded; writes nothing.
 void check_can_write_image(const std::filesystem::path& file);

@@ -32,6 +32,9 @@ class AtomicFile {
     void write(std::string_view bytes) { out_->write_all(bytes); }
     void commit();
 
+    /// Open for writing, at the end of what was written, until commit().
+    int descriptor() const { return out_->get(); }
+
     /// Where the bytes are until commit(), for another program to write them.
     const std::filesystem::path& path() const { return temporary_.empty() ? file_ : temporary_; }
 

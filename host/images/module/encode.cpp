@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <OpenImageIO/filesystem.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
 
 #include "host/base/error.h"
 #include "host/images/module/parts.h"
@@ -40,32 +45,126 @@ OIIO::ImageSpec spec_of(const ImageLayout& layout) {
     return spec;
 }
 
+// Mixed channels go in as they are: OpenImageIO would scale integers to 0..1.
+OIIO::TypeDesc type_in(const OIIO::ImageSpec& spec) {
+    return spec.channelformats.empty() ? spec.format : OIIO::TypeUnknown;
+}
+
+[[noreturn]] void fail(const std::string& name, const std::string& reason) {
+    throw Error(name + ": cannot encode: " + reason);
+}
+
+// A writer of the format, open, which writes to `proxy`.
+std::unique_ptr<OIIO::ImageOutput> open_output(const std::string& name, const std::string& format,
+                                               const OIIO::ImageSpec& spec,
+                                               OIIO::Filesystem::IOProxy& proxy) {
+    // Silences the remark about attributes that a format leaves out.
+    OIIO::attribute("debug", 0);
+    std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(format);
+    if (!out) fail(name, OIIO::geterror());
+    if (!out->set_ioproxy(&proxy)) fail(name, "the writer takes no memory or descriptor");
+    if (!out->open("memory." + format, spec)) fail(name, out->geterror());
+    return out;
+}
+
+// Writes to a descriptor. Keeps the first error, after which nothing is written.
+class DescriptorProxy : public OIIO::Filesystem::IOProxy {
+ public:
+    explicit DescriptorProxy(int file) : IOProxy("", Write), file_(file) {}
+
+    const char* proxytype() const override { return "descriptor"; }
+    std::size_t size() const override { return static_cast<std::size_t>(end_); }
+
+    bool seek(std::int64_t offset) override {
+        m_pos = offset;
+        return true;
+    }
+
+    std::size_t write(const void* bytes, std::size_t count) override {
+        if (m_pos != place_ && error_ == 0 && ::lseek(file_, m_pos, SEEK_SET) < 0) error_ = errno;
+        std::size_t done = 0;
+        while (done < count && error_ == 0) {
+            const ssize_t n = ::write(file_, static_cast<const char*>(bytes) + done, count - done);
+            if (n < 0 && errno != EINTR) error_ = errno;
+            if (n > 0) done += static_cast<std::size_t>(n);
+        }
+        place_ = m_pos += static_cast<std::int64_t>(done);
+        end_ = std::max(end_, place_);
+        return done;
+    }
+
+    int error() const { return error_; }
+
+ private:
+    int file_;
+    std::int64_t place_ = 0;  // of the descriptor
+    std::int64_t end_ = 0;
+    int error_ = 0;  // of errno
+};
+
+class FileWriter : public ImageWriter {
+ public:
+    FileWriter(const std::string& name, const std::string& format, const ImageLayout& layout,
+               int file)
+        : name_(name), spec_(spec_of(layout)), proxy_(file) {
+        try {
+            out_ = open_output(name, format, spec_, proxy_);
+        } catch (const Error&) {
+            check_system();
+            throw;
+        }
+    }
+
+    void write(int rows, std::span<const unsigned char> pixels, std::size_t pixel_stride) override {
+        check(out_->write_scanlines(next_, next_ + rows, 0, type_in(spec_), pixels.data(),
+                                    static_cast<OIIO::stride_t>(pixel_stride)));
+        next_ += rows;
+    }
+
+    void close() override { check(out_->close()); }
+
+ private:
+    void check(bool is_written) const {
+        const std::string reason = is_written ? "" : out_->geterror();
+        check_system();
+        if (!is_written) fail(name_, reason);
+    }
+
+    // The system's reason is better than that of the format's library.
+    void check_system() const {
+        if (proxy_.error() == 0) return;
+        throw Error(name_ + ": cannot write: " + std::strerror(proxy_.error()));
+    }
+
+    std::string name_;
+    OIIO::ImageSpec spec_;
+    DescriptorProxy proxy_;
+    std::unique_ptr<OIIO::ImageOutput> out_;  // writes its end when it is destroyed, too
+    int next_ = 0;                            // row
+};
+
 }  // namespace
 
 std::vector<unsigned char> encode_pixels(const std::string& name, const std::string& format,
                                          const ImageLayout& layout,
                                          std::span<const unsigned char> pixels,
                                          std::size_t pixel_stride) {
-    const auto fail = [&name](const std::string& reason) {
-        throw Error(name + ": cannot encode: " + reason);
-    };
-    // Silences the remark about attributes that a format leaves out.
-    OIIO::attribute("debug", 0);
-    const auto out = OIIO::ImageOutput::create(format);
-    if (!out) fail(OIIO::geterror());
     std::vector<unsigned char> bytes;
     bytes.reserve(pixels.size() + 65536);  // growing would copy: few files are larger
     OIIO::Filesystem::IOVecOutput memory(bytes);
-    if (!out->set_ioproxy(&memory)) fail("the writer cannot write into memory");
     const OIIO::ImageSpec spec = spec_of(layout);
-    // Mixed channels go in as they are: OpenImageIO would scale integers to 0..1.
-    const OIIO::TypeDesc type = spec.channelformats.empty() ? spec.format : OIIO::TypeUnknown;
-    if (!out->open("memory." + format, spec) ||
-        !out->write_image(type, pixels.data(), static_cast<OIIO::stride_t>(pixel_stride)) ||
+    const auto out = open_output(name, format, spec, memory);
+    if (!out->write_image(type_in(spec), pixels.data(),
+                          static_cast<OIIO::stride_t>(pixel_stride)) ||
         !out->close()) {
-        fail(out->geterror());
+        fail(name, out->geterror());
     }
     return bytes;
+}
+
+std::unique_ptr<ImageWriter> open_writer(const std::string& name, const std::string& format,
+                                         const ImageLayout& layout, int file) {
+    return std::make_unique<FileWriter>(name, format, layout, file);
 }
 
 }  // namespace kilolux::oiio

@@ -23,6 +23,6 @@ OIIO::TypeDesc type_of(SampleType type) {
 
 }  // namespace kilolux::oiio
 
-const kilolux::ImageLibrary kilolux_images{kilolux::oiio::encode_pixels, kilolux::oiio::open_image,
-                                           kilolux::oiio::open_encoded, kilolux::oiio::apply_ocio,
-                                           kilolux::oiio::text_mask};
+const kilolux::ImageLibrary kilolux_images{
+    kilolux::oiio::encode_pixels, kilolux::oiio::open_writer, kilolux::oiio::open_image,
+    kilolux::oiio::open_encoded,  kilolux::oiio::apply_ocio,  kilolux::oiio::text_mask};

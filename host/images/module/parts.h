@@ -14,6 +14,8 @@ std::vector<unsigned char> encode_pixels(const std::string& name, const std::str
                                          const ImageLayout& layout,
                                          std::span<const unsigned char> pixels,
                                          std::size_t pixel_stride);
+std::unique_ptr<ImageWriter> open_writer(const std::string& name, const std::string& format,
+                                         const ImageLayout& layout, int file);
 std::unique_ptr<ImageReader> open_image(const std::filesystem::path& file);
 std::unique_ptr<ImageReader> open_encoded(const std::string& format,
                                           std::span<const unsigned char> bytes);

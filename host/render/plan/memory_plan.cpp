@@ -86,6 +86,7 @@ Bytes target_pixel_bytes(const ScenePlan& plan) {
 struct Need {
     Bytes fixed = 0;            // whatever the bands
     Bytes device_fixed = 0;     // the part of `fixed` that is device buffers
+    Bytes picture_pixel = 0;    // for each pixel of the pictures on the host
     Bytes band_pixel = 0;       // for each pixel of a band
     Bytes largest_element = 0;  // of a band's pixel in one buffer
 };
@@ -94,7 +95,7 @@ Bytes layer_bytes(const RenderSettings& settings) {
     return settings.want.aovs.size() * most_aov_channels() * sizeof(float);
 }
 
-// Bytes of a pixel of the whole picture on the host, and on the device where stages need all of it.
+// Bytes of a pixel of the pictures on the host.
 Bytes picture_pixel_bytes(const RenderSettings& settings) {
     Bytes bytes = kHostPixel + 2 * layer_bytes(settings);
     if (settings.want.view != ViewKind::lit) bytes += DecodedSurfaces::kPixelBytes;
@@ -143,7 +144,8 @@ Bytes band_pixel_bytes(const RenderSettings& settings, const ScenePlan& plan, bo
     return bytes;
 }
 
-Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan& plan) {
+Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan& plan,
+             bool draws_in_opencl) {
     const Bytes width = static_cast<Bytes>(settings.width + FINE_TILE - 1) / FINE_TILE * FINE_TILE;
     const auto height = static_cast<Bytes>(settings.height);
     const Bytes tile_rows =
@@ -153,12 +155,14 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
     Need need;
     const Bytes on_device = scene_device_bytes(scene, settings, plan, ids);
     need.device_fixed = on_device + width * height * bloom_pixel_bytes(settings);
-    need.fixed = kProgram + scene_bytes(scene, !ids || blends) + need.device_fixed +
-                 width * height * picture_pixel_bytes(settings);
+    need.fixed = kProgram + scene_bytes(scene, !ids || blends) + need.device_fixed;
+    need.picture_pixel = picture_pixel_bytes(settings);
     if (settings.want.view == ViewKind::difference)
         need.fixed += on_device;  // of the reference pipeline
     constexpr Bytes kForwardTarget = 20;
-    if (!is_forward(settings.renderer)) need.fixed += width * tile_rows * target_pixel_bytes(plan);
+    if (!is_forward(settings.renderer) && !draws_in_opencl) {
+        need.fixed += width * tile_rows * target_pixel_bytes(plan);
+    }
     if (is_forward(settings.renderer) || blends) need.fixed += width * tile_rows * kForwardTarget;
     need.band_pixel = band_pixel_bytes(settings, plan, blends);
     need.largest_element =
@@ -184,35 +188,83 @@ std::string picture_text(const RenderSettings& settings) {
 
 int multiple_of_tile(Bytes rows) { return static_cast<int>(rows / FINE_TILE * FINE_TILE); }
 
+Bytes padded_width(const RenderSettings& settings) {
+    return static_cast<Bytes>(settings.width + FINE_TILE - 1) / FINE_TILE * FINE_TILE;
+}
+
+// Rows that the host holds as one, and what does not depend on the rows of a band with them.
+struct Strip {
+    int rows = 0;
+    Bytes fixed = 0;
+};
+
+Strip whole_picture(const RenderSettings& settings, const Need& need) {
+    const auto height = static_cast<Bytes>(settings.height);
+    return {settings.height, need.fixed + padded_width(settings) * height * need.picture_pixel};
+}
+
+// The highest strip of at most kStripPixels with which a band of `lowest` rows fits.
+Strip highest_strip(const RenderSettings& settings, const Need& need, int lowest, Bytes limit) {
+    // Of whole blocks of rows of image files: OpenEXR compresses up to 32 at once, OpenImageIO's
+    // TIFF 32.
+    constexpr int kFileRows = 32;
+    constexpr Bytes kHeld = 3;  // one is made, one is coded, and one waits
+    const Bytes width = padded_width(settings);
+    const int step = std::max(lowest, kFileRows);
+    const auto multiple = [step](Bytes rows) {
+        return std::max(step, static_cast<int>(rows) / step * step);
+    };
+    Strip out{multiple(kStripPixels / width)};
+    for (;; out.rows = multiple(static_cast<Bytes>(out.rows) / 2)) {
+        out.fixed = need.fixed + kHeld * width * static_cast<Bytes>(out.rows) * need.picture_pixel;
+        const Bytes with_band = out.fixed + width * static_cast<Bytes>(lowest) * need.band_pixel;
+        if (with_band <= limit || out.rows == step) return out;
+    }
+}
+
+Strip choose_strip(const RenderSettings& settings, const Need& need, int lowest, Bytes limit) {
+    const Strip whole = whole_picture(settings, need);
+    if (!settings.want.strips) return whole;
+    const Bytes width = padded_width(settings);
+    const bool is_large = width * static_cast<Bytes>(settings.height) > 2 * kStripPixels;
+    const bool fits = whole.fixed + width * static_cast<Bytes>(lowest) * need.band_pixel <= limit;
+    if (fits && !is_large) return whole;
+    const Strip out = highest_strip(settings, need, lowest, limit);
+    return out.rows < settings.height ? out : whole;
+}
+
 }  // namespace
 
 MemoryPlan plan_memory(const Scene& scene, const RenderSettings& settings, const ScenePlan& plan,
-                       const DeviceInfo& device) {
-    const Need need = need_of(scene, settings, plan);
+                       const DeviceInfo& device, bool draws_in_opencl) {
+    const Need need = need_of(scene, settings, plan, draws_in_opencl);
     const Bytes limit = limit_of(settings);
-    const Bytes width = static_cast<Bytes>(settings.width + FINE_TILE - 1) / FINE_TILE * FINE_TILE;
+    const Bytes width = padded_width(settings);
     const int whole = (settings.height + FINE_TILE - 1) / FINE_TILE * FINE_TILE;
     const int tile = is_forward(settings.renderer) ? whole : std::min(whole, kRasterRows);
     const int lowest = needs_whole_tiles(scene, settings) ? tile : FINE_TILE;
+    const auto [strip, fixed] = choose_strip(settings, need, lowest, limit);
+    const int most = strip < settings.height ? std::min(tile, strip) : tile;
     const Bytes row = width * need.band_pixel;
-    const Bytes fitting = limit > need.fixed ? (limit - need.fixed) / row : 0;
+    const Bytes fitting = limit > fixed ? (limit - fixed) / row : 0;
     const int rows = multiple_of_tile(
-        std::min<Bytes>({fitting, most_rows(need, device, width), static_cast<Bytes>(tile)}));
+        std::min<Bytes>({fitting, most_rows(need, device, width), static_cast<Bytes>(most)}));
     if (rows < lowest) {
         throw Error("memory: " + picture_text(settings) + " need at least " +
-                    mebibytes(need.fixed + static_cast<Bytes>(lowest) * row) + "; " +
+                    mebibytes(fixed + static_cast<Bytes>(lowest) * row) + "; " +
                     limit_text(settings));
     }
     MemoryPlan out;
     out.band_rows = settings.band_rows > 0 ? std::clamp(settings.band_rows, lowest, rows) : rows;
     out.least_rows = lowest;
-    out.bytes = need.fixed + static_cast<Bytes>(rows) * row;
+    out.strip_rows = strip;
+    out.bytes = fixed + static_cast<Bytes>(rows) * row;
     constexpr Bytes kHeldShare = 4;  // finished pictures get one part in four of what is left
     out.held_bytes = (limit - out.bytes) / kHeldShare;
     // A CPU's buffers share the host's memory: lights and bands get what is planned, lists the
     // rest.
-    out.device_bytes = device.is_cpu ? limit - out.held_bytes - need.fixed + need.device_fixed
-                                     : device.memory_bytes;
+    out.device_bytes =
+        device.is_cpu ? limit - out.held_bytes - fixed + need.device_fixed : device.memory_bytes;
     return out;
 }
 

@@ -14,17 +14,22 @@ namespace kilolux {
 struct MemoryPlan {
     int band_rows = 0;               // rows made at once: a multiple of FINE_TILE
     int least_rows = 0;              // the fewest that can be made at once, likewise
+    int strip_rows = 0;              // that the host holds as one: all, or see kStripPixels
     std::uint64_t bytes = 0;         // what that takes, light lists aside
     std::uint64_t held_bytes = 0;    // that finished pictures may take until they are written
     std::uint64_t device_bytes = 0;  // that device buffers may take: GrowingBuffer's budget
 };
 
+/// Pictures of more than two such strips are handed over strip by strip where the caller takes
+/// them so (FrameRequest::strips), smaller ones where they do not fit as a whole.
+inline constexpr std::uint64_t kStripPixels = std::uint64_t{1} << 24;
+
 /// The highest bands that fit into settings.max_memory_bytes (0: most of what is available) and
 /// into the device's buffers. The picture's bits do not depend on it. Throws Error, before anything
 /// large is allocated, when even the lowest bands do not fit: it says what is needed and what is
-/// available.
+/// available. `draws_in_opencl`: OpenGL has no targets.
 MemoryPlan plan_memory(const Scene& scene, const RenderSettings& settings, const ScenePlan& plan,
-                       const DeviceInfo& device);
+                       const DeviceInfo& device, bool draws_in_opencl = false);
 
 /// Throws Error when the program and so many generated lights do not fit; called before a scene is
 /// loaded.

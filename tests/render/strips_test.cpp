@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures that are handed over strip by strip: the same bits as made as a whole.
+#include <gtest/gtest.h>
+
+#include "host/base/error.h"
+#include "host/render/plan/memory_plan.h"
+#include "host/render/render_context.h"
+#include "kernels/shared/cluster_grid.h"
+#include "tests/support/messages.h"
+#include "tests/support/render_fixture.h"
+
+namespace kilolux {
+namespace {
+
+constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
+constexpr std::uint64_t kGiB = std::uint64_t{1} << 30;
+
+// The strip's part of values of the whole picture, `channels` a pixel.
+template <typename T>
+std::vector<T> rows_of(const std::vector<T>& whole, const Frame& strip, std::size_t channels) {
+    const std::size_t row = channels * static_cast<std::size_t>(strip.width);
+    const auto first = whole.begin() + static_cast<std::ptrdiff_t>(row) *
+                                           static_cast<std::ptrdiff_t>(strip.first_row);
+    return {first, first + static_cast<std::ptrdiff_t>(row) * strip.height};
+}
+
+// Strips that end within a band and a tile of the grid, not in order.
+void expect_same_in_strips(const Scene& scene, const RenderSettings& settings) {
+    Renderer renderer(scene, settings);
+    const Camera camera = first_camera(scene);
+    const Frame whole = renderer.render(camera, 0.5);
+    for (const Band& rows : {Band{96, 35}, Band{0, 32}, Band{32, 64}}) {
+        const Frame strip = renderer.render_strip(camera, 0.5, rows);
+        ASSERT_EQ(strip.height, rows.rows);
+        ASSERT_EQ(strip.first_row, rows.first_row);
+        EXPECT_TRUE(strip.radiance == rows_of(whole.radiance, strip, 3));
+        EXPECT_TRUE(strip.display == rows_of(whole.display, strip, 4));
+        ASSERT_EQ(strip.aovs.size(), whole.aovs.size());
+        for (std::size_t i = 0; i < whole.aovs.size(); ++i) {
+            const Layer& layer = whole.aovs[i];
+            const std::size_t channels = layer.channels.size();
+            if (layer.is_id()) {
+                EXPECT_TRUE(strip.aovs[i].ids == rows_of(layer.ids, strip, channels)) << layer.name;
+                EXPECT_GE(strip.aovs[i].most_id, std::ranges::max(layer.ids)) << layer.name;
+            } else {
+                EXPECT_TRUE(strip.aovs[i].values == rows_of(layer.values, strip, channels))
+                    << layer.name;
+            }
+        }
+        EXPECT_GT(strip.stats.frame_ms, 0.0);
+        EXPECT_EQ(strip.stats.lights_given, whole.stats.lights_given);
+    }
+}
+
+TEST(Strips, HaveTheBitsOfThePicture) {
+    const Scene scene = grid_with_every_light();
+    RenderSettings settings = small_settings(150, 131, 400);
+    settings.want.aovs = {"depth", "normal", "light-count", "cluster"};
+    settings.band_rows = FINE_TILE;
+    for (const Geometry geometry : {Geometry::compute, Geometry::ids, Geometry::planes}) {
+        settings.geometry = geometry;
+        expect_same_in_strips(scene, settings);
+    }
+    settings.want.aovs.clear();
+    settings.geometry = Geometry::compute;
+    settings.band_rows = 0;
+    settings.samples = 3;
+    settings.shadows = Shadows::exact;
+    settings.background = std::make_shared<const Environment>(Environment{1, 1, {glm::vec3(1.0f)}});
+    expect_same_in_strips(scene, settings);
+    settings.renderer = RendererKind::deferred_all;
+    expect_same_in_strips(scene, settings);
+}
+
+TEST(Strips, AreRefusedWhereThePictureIsNeeded) {
+    const Scene scene = make_generated_scene("plain");
+    RenderSettings settings = small_settings(64, 64, 10);
+    settings.bloom = 0.1f;
+    Renderer renderer(scene, settings);
+    const auto strip = [&] { renderer.render_strip(first_camera(scene), 0.0, {0, 32}); };
+    EXPECT_THROW(strip(), Error);
+    settings.bloom = 0.0f;
+    settings.want.view = ViewKind::lights;
+    renderer.change(settings);
+    EXPECT_THROW(strip(), Error);
+    settings.want.view = ViewKind::lit;
+    renderer.change(settings);
+    EXPECT_NO_THROW(strip());
+}
+
+MemoryPlan plan_of_size(int width, int height, std::uint64_t memory, bool strips) {
+    const Scene scene = make_generated_scene("plain");
+    RenderSettings settings = small_settings(width, height, 1000);
+    settings.geometry = Geometry::compute;
+    settings.max_memory_bytes = memory;
+    settings.want.strips = strips;
+    return plan_memory(scene, settings, make_scene_plan(scene, settings, 1000),
+                       describe(choose_device(settings.device)), true);
+}
+
+TEST(Strips, LetPicturesFitThatDoNotFitAsAWhole) {
+    EXPECT_THROW(plan_of_size(65536, 65536, 2 * kGiB, false), Error);
+    const MemoryPlan plan = plan_of_size(65536, 65536, 2 * kGiB, true);
+    EXPECT_EQ(plan.strip_rows % 32, 0);
+    EXPECT_GE(plan.strip_rows, plan.band_rows);
+    EXPECT_LE(plan.bytes, 2 * kGiB);
+    EXPECT_LE(65536u * static_cast<std::uint64_t>(plan.strip_rows), kStripPixels);
+    EXPECT_THROW(plan_of_size(65536, 65536, 300 * kMiB, true), Error);
+}
+
+TEST(Strips, AreThoseOfLargePicturesOnly) {
+    EXPECT_EQ(plan_of_size(1920, 1080, 2 * kGiB, true).strip_rows, 1080);
+    EXPECT_EQ(plan_of_size(16384, 4096, 16 * kGiB, false).strip_rows, 4096);
+    EXPECT_EQ(plan_of_size(16384, 4096, 16 * kGiB, true).strip_rows, 1024);
+}
+
+// Where nothing was measured OpenGL draws, as wide as it can.
+TEST(Strips, OfPicturesTooWideForOpenGlAreDrawnByOpenCl) {
+    const Scene scene = make_generated_scene("plain");
+    const RenderScene drawn(scene, true);
+    RenderSettings settings = small_settings(64, 64, 10);
+    Tuning tuning;
+    tuning.geometry = 0;
+    if (drawn.opengl_limit() == 0) GTEST_SKIP() << "no OpenGL";
+    EXPECT_FALSE(draws_in_opencl(drawn, settings, tuning));
+    settings.width = drawn.opengl_limit() + 1;
+    EXPECT_TRUE(draws_in_opencl(drawn, settings, tuning));
+    settings.geometry = Geometry::ids;
+    EXPECT_FALSE(draws_in_opencl(drawn, settings, tuning));
+    settings.geometry = Geometry::automatic;
+    settings.renderer = RendererKind::forward;
+    EXPECT_FALSE(draws_in_opencl(drawn, settings, tuning));
+}
+
+}  // namespace
+}  // namespace kilolux
