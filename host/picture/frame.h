@@ -96,7 +96,7 @@ struct Frame {
     int height = 0;
     int first_row = 0;                  // of the picture: above 0 in lower strips of it
     std::vector<float> radiance;        // linear HDR Rec. 709, 3 * width * height
-    std::vector<float> bloomed;         // radiance with bloom, where there is some
+    std::vector<float> shown_light;     // the same with bloom; empty without
     std::vector<std::uint8_t> display;  // sRGB, 4 * width * height
     std::vector<Layer> aovs;
     FrameStats stats;

@@ -97,8 +97,7 @@ Frame Renderer::render_to(std::span<uint> pixels, const Camera& camera, double t
 }
 
 Frame Renderer::render_strip(const Camera& camera, double time, Band rows) {
-    const RenderSettings& s = settings();
-    if (s.bloom > 0.0f || s.want.view != ViewKind::lit) {
+    if (!can_make_strips(settings())) {
         throw Error("render: bloom and views need the whole picture; a strip has none");
     }
     return in_stage("render", [&] {

@@ -6,11 +6,9 @@
 
 namespace kilolux {
 
-bool can_make_strips(const RenderOptions& options) {
+bool can_write_strips(const RenderOptions& options) {
     const OutputOptions& out = options.output;
-    const RenderSettings& settings = options.shared.settings;
-    return !is_video(out.output) && can_stream(out.output) && out.reference.empty() &&
-           settings.bloom == 0.0f && settings.want.view == ViewKind::lit;
+    return !is_video(out.output) && can_stream(out.output) && out.reference.empty();
 }
 
 StripsJob::StripsJob(const Renderer& renderer, const Camera& camera, double time, bool has_alpha,

@@ -16,9 +16,8 @@
 
 namespace kilolux {
 
-/// Whether a picture of these options can be written strip by strip: in a format that takes rows,
-/// where nothing needs all of them at once.
-bool can_make_strips(const RenderOptions& options);
+/// Whether the file can be written strip by strip, and no reference needs the whole picture.
+bool can_write_strips(const RenderOptions& options);
 
 /// Makes the strips of a picture, on one device or several: a free device takes the next one.
 class StripsJob : public DeviceJob {

@@ -78,13 +78,15 @@ void SceneRenderer::expose_automatically(double time, int frame, const std::stri
     RenderSettings settings = wanted;
     settings.want = radiance_only();
     settings.want.strips = true;
-    settings.bloom = 0.0f;
     settings.background.reset();
     renderer_->change(settings);
     place(time, frame);
     ExposureMeter meter;
-    for (const Band& rows : renderer_->strips()) {
-        meter.add(renderer_->render_strip(camera_, time, rows).radiance);
+    const std::vector<Band> strips = renderer_->strips();
+    for (const Band& rows : strips) {
+        const Frame picture = strips.size() == 1 ? renderer_->render(camera_, time)
+                                                 : renderer_->render_strip(camera_, time, rows);
+        meter.add(picture.radiance);
     }
     settings = wanted;
     settings.exposure = options_.settings.exposure = meter.exposure();

@@ -25,7 +25,7 @@ DeviceInfo device() {
     return out;
 }
 
-class ReportSettingsOfATuning : public CacheSandbox {};
+using ReportSettingsOfATuning = TuningSandbox;
 
 std::set<SettingAxis> axes(const std::vector<ReportSetting>& settings) {
     std::set<SettingAxis> out;

@@ -58,7 +58,7 @@ void overwrite(const fs::path& file, const std::string& text) {
 }
 
 using DeviceCache = CacheSandbox;
-using TuningStore = CacheSandbox;
+using TuningStore = TuningSandbox;
 
 TEST_F(DeviceCache, FollowsTheEnvironment) {
     set("XDG_CACHE_HOME", "/somewhere");
@@ -236,7 +236,7 @@ TEST_F(TuningStore, BuiltInTableIsValidForSmallGroups) {
     }
 }
 
-class ShippedTunings : public CacheSandbox {};
+class ShippedTunings : public TuningSandbox {};
 
 const std::vector<ShippedTuning>& some_table() {
     static const std::vector<ShippedTuning> table = {
@@ -332,14 +332,16 @@ TEST_F(ShippedTunings, AreThoseOfTheCertificates) {
     EXPECT_EQ(shipped, shipped_tunings().size());
 }
 
-TEST(ForcedTuning, OfNoShippedDeviceIsNamed) {
+using ForcedTuning = TuningSandbox;
+
+TEST_F(ForcedTuning, OfNoShippedDeviceIsNamed) {
     const EnvironmentVariable forced("KILOLUX_SHIPPED_TUNING", "no such device");
     EXPECT_EQ(message_of<Error>([] { known_tuning(DeviceInfo{}); }),
               "KILOLUX_SHIPPED_TUNING=no such device: no tuning is shipped for it");
 }
 
 // What tests of kernels take, and what frames take.
-TEST(ForcedTuning, IsTheDefaultAndTheKnownOneOfADeviceOfItsKind) {
+TEST_F(ForcedTuning, IsTheDefaultAndTheKnownOneOfADeviceOfItsKind) {
     DeviceInfo cpu;
     cpu.is_cpu = true;
     cpu.max_work_group = 4096;

@@ -2,8 +2,10 @@
 // A scene set from time to time equals the one loaded at each time.
 #include "host/scene/animated_scene.h"
 
+#include <draco/compression/decode.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -11,9 +13,25 @@
 #include "host/scene/generated/scenes.h"
 #include "tests/scene/export_scenes.h"
 #include "tests/support/box_scene.h"
-#include "tests/support/gltf_builder.h"
+#include "tests/support/gltf_compressed.h"
 
 namespace kilolux {
+
+// The linker gives calls of Draco's decoder to the second and those of the first to the decoder
+// (tests/CMakeLists.txt). A member function is called as a function of `this`.
+using DracoMesh = draco::StatusOr<std::unique_ptr<draco::Mesh>>;
+DracoMesh real_decode(draco::Decoder* decoder, draco::DecoderBuffer* buffer) asm(
+    "__real__ZN5draco7Decoder20DecodeMeshFromBufferEPNS_13DecoderBufferE");
+DracoMesh counted_decode(draco::Decoder* decoder, draco::DecoderBuffer* buffer) asm(
+    "__wrap__ZN5draco7Decoder20DecodeMeshFromBufferEPNS_13DecoderBufferE");
+
+static std::atomic<int> draco_decodes = 0;
+
+DracoMesh counted_decode(draco::Decoder* decoder, draco::DecoderBuffer* buffer) {
+    ++draco_decodes;
+    return real_decode(decoder, buffer);
+}
+
 namespace {
 
 using nlohmann::json;
@@ -221,6 +239,31 @@ TEST(AnimatedScene, StandsStillWithoutAnimations) {
         EXPECT_EQ(scene->scene().revisions, SceneRevisions{});
         EXPECT_EQ(scene->scene().still_box, bounds(scene->scene()));
     }
+}
+
+// A quad that morphs and one whose node moves, both compressed.
+TEST(AnimatedScene, DecodesDracoOnce) {
+    GltfBuilder file = draco_file(draco_quad(kDracoSequential));
+    add_draco_quad(file, draco_quad(kDracoSequential));
+    file.primitive()["targets"] = {
+        {{"POSITION", file.add_floats("VEC3", {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1})}}};
+    const int input = file.add_floats("SCALAR", {0, 1});
+    const int weights = file.add_floats("SCALAR", {0, 1});
+    const int path = file.add_floats("VEC3", {0, 0, 0, 1, 0, 0});
+    file.add("animations",
+             {{"samplers",
+               {{{"input", input}, {"output", weights}}, {{"input", input}, {"output", path}}}},
+              {"channels", {channel(0, 0, "weights"), channel(1, 1, "translation")}}});
+    const TempFolder folder;
+    write_file(folder.path() / "quads.glb", file.glb());
+    draco_decodes = 0;
+    AnimatedScene scene(folder.path() / "quads.glb", {});
+    EXPECT_EQ(draco_decodes, 2);
+    for (const double time : {0.25, 0.5, 1.0, 0.0}) {
+        scene.set_time(time);
+        EXPECT_EQ(scene.scene().meshes[0].positions[0].z, static_cast<float>(time));
+    }
+    EXPECT_EQ(draco_decodes, 2) << "and none for a frame";
 }
 
 }  // namespace

@@ -31,4 +31,13 @@ class CacheSandbox : public testing::Test {
     std::deque<EnvironmentVariable> set_;
 };
 
+/// A test of how a tuning is chosen: none is measured here, and none is forced.
+class TuningSandbox : public CacheSandbox {
+ protected:
+    void SetUp() override {
+        CacheSandbox::SetUp();
+        set("KILOLUX_SHIPPED_TUNING", nullptr);
+    }
+};
+
 }  // namespace kilolux

@@ -54,16 +54,14 @@ OIIO::TypeDesc type_in(const OIIO::ImageSpec& spec) {
     throw Error(name + ": cannot encode: " + reason);
 }
 
-// A writer of the format, open, which writes to `proxy`.
-std::unique_ptr<OIIO::ImageOutput> open_output(const std::string& name, const std::string& format,
-                                               const OIIO::ImageSpec& spec,
-                                               OIIO::Filesystem::IOProxy& proxy) {
+// A writer of the format, not open, which writes to `proxy`.
+std::unique_ptr<OIIO::ImageOutput> create_output(const std::string& name, const std::string& format,
+                                                 OIIO::Filesystem::IOProxy& proxy) {
     // Silences the remark about attributes that a format leaves out.
     OIIO::attribute("debug", 0);
     std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(format);
     if (!out) fail(name, OIIO::geterror());
     if (!out->set_ioproxy(&proxy)) fail(name, "the writer takes no memory or descriptor");
-    if (!out->open("memory." + format, spec)) fail(name, out->geterror());
     return out;
 }
 
@@ -106,13 +104,11 @@ class FileWriter : public ImageWriter {
  public:
     FileWriter(const std::string& name, const std::string& format, const ImageLayout& layout,
                int file)
-        : name_(name), spec_(spec_of(layout)), proxy_(file) {
-        try {
-            out_ = open_output(name, format, spec_, proxy_);
-        } catch (const Error&) {
-            check_system();
-            throw;
-        }
+        : name_(name),
+          spec_(spec_of(layout)),
+          proxy_(file),
+          out_(create_output(name, format, proxy_)) {
+        check(out_->open("memory." + format, spec_));
     }
 
     void write(int rows, std::span<const unsigned char> pixels, std::size_t pixel_stride) override {
@@ -124,16 +120,19 @@ class FileWriter : public ImageWriter {
     void close() override { check(out_->close()); }
 
  private:
-    void check(bool is_written) const {
-        const std::string reason = is_written ? "" : out_->geterror();
-        check_system();
-        if (!is_written) fail(name_, reason);
+    // The system's reason is better than that of the format's library.
+    void check(bool is_written) {
+        if (is_written && proxy_.error() == 0) return;
+        const std::string reason = out_->geterror();
+        abandon();
+        if (proxy_.error() == 0) fail(name_, reason);
+        throw Error(name_ + ": cannot write: " + std::strerror(proxy_.error()));
     }
 
-    // The system's reason is better than that of the format's library.
-    void check_system() const {
-        if (proxy_.error() == 0) return;
-        throw Error(name_ + ": cannot write: " + std::strerror(proxy_.error()));
+    // Keeps a writer that failed: to end a file without rows, libpng prints an error of its own.
+    void abandon() {
+        static auto* const abandoned = new std::vector<std::unique_ptr<OIIO::ImageOutput>>;
+        abandoned->push_back(std::move(out_));
     }
 
     std::string name_;
@@ -153,8 +152,9 @@ std::vector<unsigned char> encode_pixels(const std::string& name, const std::str
     bytes.reserve(pixels.size() + 65536);  // growing would copy: few files are larger
     OIIO::Filesystem::IOVecOutput memory(bytes);
     const OIIO::ImageSpec spec = spec_of(layout);
-    const auto out = open_output(name, format, spec, memory);
-    if (!out->write_image(type_in(spec), pixels.data(),
+    const auto out = create_output(name, format, memory);
+    if (!out->open("memory." + format, spec) ||
+        !out->write_image(type_in(spec), pixels.data(),
                           static_cast<OIIO::stride_t>(pixel_stride)) ||
         !out->close()) {
         fail(name, out->geterror());

@@ -10,13 +10,13 @@
 #include "host/picture/bands.h"
 #include "host/picture/decoded_surfaces.h"
 #include "host/render/forward_shading.h"
+#include "host/render/whole_picture.h"
 #include "host/stages/lights/drift_lights.h"
 #include "host/stages/lights/move_lights.h"
 #include "host/stages/lights/prepare_lights.h"
 #include "host/stages/lists/bin_pixels.h"
 #include "host/stages/lists/count_lights.h"
 #include "host/stages/picture/adaptive_samples.h"
-#include "host/stages/picture/bloom.h"
 #include "host/stages/picture/sum_samples.h"
 #include "host/stages/shading/fill_background.h"
 #include "host/stages/shadows/shadow_origins.h"
@@ -103,13 +103,6 @@ Bytes picture_pixel_bytes(const RenderSettings& settings) {
     return bytes;
 }
 
-// Bytes of a pixel of bloom, which mixes the whole picture, and of the display picture made from
-// it.
-Bytes bloom_pixel_bytes(const RenderSettings& settings) {
-    if (settings.bloom <= 0.0f) return 0;
-    return Radiance::kPixelBytes + Bloom::kPixelBytes + DisplayTarget::kPixelBytes;
-}
-
 // Bytes of the scene on the device, for any picture size.
 Bytes scene_device_bytes(const Scene& scene, const RenderSettings& settings, const ScenePlan& plan,
                          bool ids) {
@@ -154,7 +147,7 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
     const bool ids = resolves_ids(settings.geometry) && !is_forward(settings.renderer);
     Need need;
     const Bytes on_device = scene_device_bytes(scene, settings, plan, ids);
-    need.device_fixed = on_device + width * height * bloom_pixel_bytes(settings);
+    need.device_fixed = on_device + width * height * whole_picture_pixel_bytes(settings);
     need.fixed = kProgram + scene_bytes(scene, !ids || blends) + need.device_fixed;
     need.picture_pixel = picture_pixel_bytes(settings);
     if (settings.want.view == ViewKind::difference)
@@ -224,7 +217,7 @@ Strip highest_strip(const RenderSettings& settings, const Need& need, int lowest
 
 Strip choose_strip(const RenderSettings& settings, const Need& need, int lowest, Bytes limit) {
     const Strip whole = whole_picture(settings, need);
-    if (!settings.want.strips) return whole;
+    if (!settings.want.strips || !can_make_strips(settings)) return whole;
     const Bytes width = padded_width(settings);
     const bool is_large = width * static_cast<Bytes>(settings.height) > 2 * kStripPixels;
     const bool fits = whole.fixed + width * static_cast<Bytes>(lowest) * need.band_pixel <= limit;

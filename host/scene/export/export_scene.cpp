@@ -200,9 +200,9 @@ class Writer {
     }
 
     Bytes glb() const {
-        const std::string json = root_.dump(-1, ' ', false, Json::error_handler_t::replace);
+        const std::string text = root_.dump(-1, ' ', false, Json::error_handler_t::replace);
         constexpr std::size_t kHeaders = 12 + 8 + 8 + 6;  // and the most that padding takes
-        const std::size_t bytes = json.size() + buffer_.bytes().size() + kHeaders;
+        const std::size_t bytes = text.size() + buffer_.bytes().size() + kHeaders;
         if (bytes > std::numeric_limits<std::uint32_t>::max()) {
             throw Error(
                 fmt::format("{}.glb: would be {} MiB, a .glb holds at most 4096; export to .gltf",
@@ -214,7 +214,7 @@ class Writer {
         append_word(out, 2);
         append_word(out, 0);
         append_chunk(out, "JSON",
-                     {reinterpret_cast<const unsigned char*>(json.data()), json.size()}, ' ');
+                     {reinterpret_cast<const unsigned char*>(text.data()), text.size()}, ' ');
         if (!buffer_.bytes().empty()) append_chunk(out, "BIN\0", buffer_.bytes(), 0);
         Bytes size;
         append_word(size, out.size());

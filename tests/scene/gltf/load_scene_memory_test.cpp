@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// LoadOptions::max_memory_bytes bounds buffers, images and meshes together, and a worker's failed
-// allocation reaches the caller as an exception.
+// LoadOptions::max_memory_bytes bounds buffers, images and meshes together, a worker's failed
+// allocation reaches the caller as an exception, and a frame of an animation allocates little.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -95,6 +95,27 @@ TEST(LoadSceneMemory, ManyTimesFitWhereOneDoes) {
     AnimatedScene scene(folder.path() / "scene.glb", options);
     for (int i = 1; i < 1000; ++i) scene.set_time(i / 500.0);
     EXPECT_EQ(scene_defect(scene.scene()), "");
+}
+
+// To decode them anew would need their room.
+TEST(LoadSceneMemory, AFrameDecodesNoKeyTimesAnew) {
+    constexpr std::size_t kKeys = 100000;
+    std::vector<float> times(kKeys), path(3 * kKeys);
+    for (std::size_t i = 0; i < kKeys; ++i) times[i] = path[3 * i] = static_cast<float>(i);
+    GltfBuilder file = triangle_file();
+    file.add(
+        "animations",
+        {{"samplers",
+          {{{"input", file.add_floats("SCALAR", times)},
+            {"output", file.add_floats("VEC3", path)}}}},
+         {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}});
+    const TempFolder folder;
+    write_file(folder.path() / "scene.glb", file.glb());
+    AnimatedScene scene(folder.path() / "scene.glb", {0.5});
+    refused_from = kKeys * sizeof(float);
+    EXPECT_NO_THROW(scene.set_time(99.5));
+    refused_from = kNever;
+    EXPECT_EQ(scene.scene().instances.at(0).world_from_object[3].x, 99.5);
 }
 
 TEST(LoadSceneMemory, WorkersThatGetNoMemoryThrowToTheCaller) {
