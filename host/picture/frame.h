@@ -94,7 +94,7 @@ struct Frame {
     int width = 0;
     int height = 0;
     std::vector<float> radiance;        // linear HDR Rec. 709, 3 * width * height
-    std::vector<float> bloomed;         // radiance with bloom, where there is some
+    std::vector<float> shown_light;     // the same with bloom; empty without
     std::vector<std::uint8_t> display;  // sRGB, 4 * width * height
     std::vector<Layer> aovs;
     FrameStats stats;

@@ -38,7 +38,7 @@ ViewKind parse_view(std::string_view name);
 struct FrameRequest {
     bool display = true;            // Frame::display
     bool radiance = true;           // Frame::radiance
-    bool bloomed = false;           // Frame::bloomed, where there is bloom
+    bool shown_light = false;       // Frame::shown_light
     bool counts = false;            // also k*, by one more pass
     bool shadow_counts = false;     // also FrameStats::shadows, by casting the shadows once more
     ViewKind view = ViewKind::lit;  // what Frame::display shows

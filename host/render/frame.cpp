@@ -54,20 +54,20 @@ Sample make_sample(Pipeline& p, const Shot& shot, LightInput lights, const Band&
     return out;
 }
 
-// Bloom -> tonemap -> picture.
+// Stages over the whole picture -> tonemap -> picture.
 void develop(Pipeline& p, const Radiance& light, Frame& frame) {
-    const Radiance glowing = p.picture.bloom(light, p.timer);
-    p.picture.read_light(glowing, frame.bloomed, p.timer);
-    const std::optional<DisplayTarget> display = p.picture.tonemap(glowing, p.timer);
+    const Radiance shown = p.picture.finished(light, p.timer);
+    p.picture.read_light(shown, frame.shown_light, p.timer);
+    const std::optional<DisplayTarget> display = p.picture.tonemap(shown, p.timer);
     if (display) p.picture.read_display(*display, p.timer);
 }
 
-// Tone maps a band. Bloom over several bands waits for the last one.
+// Tone maps a band. Stages over the whole picture wait for the last band.
 void develop_band(Pipeline& p, const std::optional<DisplayTarget>& shaded, const Radiance& light,
                   Frame& frame) {
     if (shaded) return p.picture.read_display(*shaded, p.timer);
     p.picture.read_light(light, frame.radiance, p.timer);
-    if (!p.picture.keep_for_bloom(light)) develop(p, light, frame);
+    if (!p.picture.keep_for_whole(light)) develop(p, light, frame);
 }
 
 // A band's AOVs, and its surfaces for a view.
@@ -181,7 +181,7 @@ void render_bands(Pipeline& p, const Shot& shot, SharedPicture& picture, FrameSt
     }
 }
 
-// What needs all rows: bloom, and views.
+// What needs all rows: stages over the whole picture, and views.
 void finish(Pipeline& p, const Shot& shot, SharedPicture& picture, FrameStats& stats) {
     Frame& frame = picture.frame;
     const Clock::time_point start = Clock::now();

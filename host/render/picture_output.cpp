@@ -11,14 +11,14 @@ PictureOutput::PictureOutput(const RenderContext& context)
     : context_(context),
       tone_curve_(static_cast<int>(context.settings.tone_curve)),
       tonemap_(context.gpu, context.tuning, tone_curve_),
-      whole_light_(context.gpu, "bloom"),
+      whole_light_(context.gpu, "whole light"),
       reader_(context.gpu),
       shown_(context.gpu) {
     set(context.settings);
 }
 
 void PictureOutput::set(const RenderSettings& settings) {
-    if (settings.bloom > 0.0f && !bloom_) bloom_.emplace(context_.gpu);
+    stages_.set(context_.gpu, settings);
     const int tone_curve = static_cast<int>(settings.tone_curve);
     if (tone_curve != tone_curve_) tonemap_ = Tonemap(context_.gpu, context_.tuning, tone_curve);
     tone_curve_ = tone_curve;
@@ -33,12 +33,11 @@ void PictureOutput::resize(Frame& frame, bool shown_only, bool by_rows) const {
     const auto pixels =
         static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
     if (want.display && !shown_only) frame.display.resize(4 * pixels);
-    const bool blooms = settings.bloom > 0.0f;
-    if ((want.radiance && !shown_only) || want.view == ViewKind::difference ||
-        (by_rows && blooms)) {
+    const bool whole = needs_whole_picture(settings);
+    if ((want.radiance && !shown_only) || want.view == ViewKind::difference || (by_rows && whole)) {
         frame.radiance.resize(3 * pixels);
     }
-    if (want.bloomed && blooms) frame.bloomed.resize(3 * pixels);
+    if (want.shown_light && whole) frame.shown_light.resize(3 * pixels);
 }
 
 void PictureOutput::begin(DisplayMemory memory, Frame& frame, bool by_rows) {
@@ -46,7 +45,7 @@ void PictureOutput::begin(DisplayMemory memory, Frame& frame, bool by_rows) {
     memory_ = memory;
     by_rows_ = by_rows;
     display_ = {reinterpret_cast<uint*>(frame.display.data()), frame.display.size() / sizeof(uint)};
-    if (blooms_at_end() && !by_rows) {
+    if (waits_for_bands() && !by_rows) {
         const RenderSettings& settings = context_.settings;
         const View view = view_of(Camera{}, settings.width, settings.height);
         whole_light_.reserve(std::size_t{3} * view.stride * view.height);
@@ -62,8 +61,8 @@ DisplayTarget PictureOutput::target(const View& view) {
     return tonemap_.target({pixels, memory_.size()}, view, exposure);
 }
 
-bool PictureOutput::keep_for_bloom(const Radiance& light) {
-    if (!blooms_at_end()) return false;
+bool PictureOutput::keep_for_whole(const Radiance& light) {
+    if (!waits_for_bands()) return false;
     if (by_rows_) return true;  // it is read
     const View& view = light.view;
     const std::size_t row = sizeof(float) * view.stride;
@@ -75,7 +74,7 @@ bool PictureOutput::keep_for_bloom(const Radiance& light) {
 }
 
 std::optional<Radiance> PictureOutput::whole_light(const Camera& camera, const Frame& frame) {
-    if (!blooms_at_end()) return {};
+    if (!waits_for_bands()) return {};
     const RenderSettings& settings = context_.settings;
     const View view = view_of(camera, settings.width, settings.height);
     if (by_rows_) upload(frame, view);
@@ -97,9 +96,8 @@ void PictureOutput::upload(const Frame& frame, const View& view) {
     }
 }
 
-Radiance PictureOutput::bloom(const Radiance& light, StageTimer& timer) {
-    const float share = context_.settings.bloom;
-    return share > 0.0f ? bloom_->enqueue(light, share, timer) : light;
+Radiance PictureOutput::finished(const Radiance& light, StageTimer& timer) {
+    return stages_.enqueue(light, context_.settings, timer);
 }
 
 std::optional<DisplayTarget> PictureOutput::tonemap(const Radiance& light, StageTimer& timer) {

@@ -8,7 +8,7 @@
 #include "host/picture/frame_reader.h"
 #include "host/render/lit_band.h"
 #include "host/render/render_context.h"
-#include "host/stages/picture/bloom.h"
+#include "host/render/whole_picture.h"
 #include "host/stages/picture/tonemap.h"
 
 namespace kilolux {
@@ -17,7 +17,8 @@ namespace kilolux {
 /// Renderer::render_to(); none where it is empty.
 using DisplayMemory = std::span<uint>;
 
-/// From radiance to the pictures on the host: bloom, tone mapping, reading back.
+/// From radiance to the pictures on the host: stages over the whole picture, tone mapping, reading
+/// back.
 class PictureOutput {
  public:
     explicit PictureOutput(const RenderContext& context);
@@ -25,8 +26,8 @@ class PictureOutput {
     /// Takes over other settings. Throws Error.
     void set(const RenderSettings& settings);
 
-    /// Gives the frame's pictures the size that is wanted. `by_rows`: bloom reads the light of a
-    /// picture that is made by rows from Frame::radiance.
+    /// Gives the frame's pictures the size that is wanted. `by_rows`: stages over the whole picture
+    /// read the light of a picture that is made by rows from Frame::radiance.
     void resize(Frame& frame, bool shown_only, bool by_rows) const;
 
     /// Begins a frame that has its size.
@@ -35,19 +36,19 @@ class PictureOutput {
     /// Where shading puts the band's display picture.
     DisplayTarget target(const View& view);
 
-    /// Keeps the band's light if bloom needs all bands. Returns whether it did.
-    bool keep_for_bloom(const Radiance& light);
-    /// The light that keep_for_bloom() kept, or of all rows; none where bloom needs none.
+    /// Keeps the band's light if a stage needs all bands. Returns whether it did.
+    bool keep_for_whole(const Radiance& light);
+    /// The light that keep_for_whole() kept, or of all rows; none where no stage needs it.
     std::optional<Radiance> whole_light(const Camera& camera, const Frame& frame);
 
-    /// The light with bloom.
-    Radiance bloom(const Radiance& light, StageTimer& timer);
+    /// The light after the stages over the whole picture.
+    Radiance finished(const Radiance& light, StageTimer& timer);
 
     /// The display picture of the light; none where it is not wanted.
     std::optional<DisplayTarget> tonemap(const Radiance& light, StageTimer& timer);
 
-    /// Enqueues the reads that the frame wants of the light, with bloom and without, and of the
-    /// display picture.
+    /// Enqueues the reads that the frame wants of the light, before and after these stages, and of
+    /// the display picture.
     void read_light(const Radiance& light, std::vector<float>& to, StageTimer& timer);
     void read_display(const DisplayTarget& display, StageTimer& timer);
 
@@ -59,17 +60,17 @@ class PictureOutput {
 
  private:
     bool is_written_by_device() const { return context_.gpu.info.is_cpu && !memory_.empty(); }
-    bool blooms_at_end() const {
-        return context_.settings.bloom > 0.0f && (by_rows_ || !context_.is_whole());
+    bool waits_for_bands() const {
+        return needs_whole_picture(context_.settings) && (by_rows_ || !context_.is_whole());
     }
     void upload(const Frame& frame, const View& view);
 
     const RenderContext& context_;
-    std::optional<Bloom> bloom_;  // none where bloom is 0
+    WholePictureStages stages_;
     int tone_curve_;
     Tonemap tonemap_;
     Backdrop backdrop_;
-    GrowingArray<float> whole_light_;  // of all bands, where bloom mixes them
+    GrowingArray<float> whole_light_;  // of all bands, where a stage mixes them
     FrameReader reader_;
     PinnedMemory shown_;            // display_memory() of a device with memory of its own
     std::vector<uint> host_shown_;  // else

@@ -4,6 +4,7 @@
 #include "host/picture/bands.h"
 #include "host/render/plan/grid_request.h"
 #include "host/render/plan/kernel_choice.h"
+#include "host/render/whole_picture.h"
 
 namespace kilolux {
 namespace {
@@ -26,8 +27,8 @@ bool chooses_compute(const RenderContext& context) {
 bool RenderContext::shades_display() const {
     const FrameRequest& want = settings.want;
     const bool is_one_sample = settings.samples <= 1 && !settings.auto_samples.on;
-    const bool is_all =
-        !settings.background && !settings.reflections && settings.bloom <= 0.0f && !blends();
+    const bool is_all = !settings.background && !settings.reflections &&
+                        !needs_whole_picture(settings) && !blends();
     return settings.renderer == RendererKind::deferred && want.display && !want.radiance &&
            want.view == ViewKind::lit && is_one_sample && is_all &&
            !plan.kernels.fast_relaxed_math && !plan.kernels.native_math;

@@ -71,6 +71,9 @@ struct OutputOptions {
     bool operator==(const OutputOptions&) const = default;
 };
 
+/// The extensions of pictures and videos.
+std::vector<std::string> output_extensions();
+
 /// Calls `visit` with each option and its value in `options`, in the order of --help. The one list
 /// of them: see Setting.
 void visit_settings(SharedOptions& options, const SettingVisitor& visit);

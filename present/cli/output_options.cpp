@@ -32,9 +32,8 @@ std::string picture_file(const std::string&, const std::string& text) {
 std::string output_file(const std::string&, const std::string& text) {
     if (is_video(text)) return text;
     const std::string extension = lower(std::filesystem::path(text).extension().string());
-    std::vector<std::string> known = image_extensions();
+    const std::vector<std::string> known = output_extensions();
     if (std::ranges::find(known, extension) != known.end()) return text;
-    for (const std::string& video : video_extensions()) known.push_back(video);
     throw UsageError(fmt::format("{}: image type '{}' is none of {}{}", text, extension,
                                  joined(known), did_you_mean(extension, known)));
 }
@@ -44,9 +43,12 @@ void visit_encoding(const SettingVisitor& f, OutputOptions& o) {
     Encoding& e = o.encoding;
     OptionBuilder(f, "Output")
         .value({"--output,-o", "FILE", "",
-                "Picture: .exr and .hdr linear, .png .jpg .jpeg .tif .tiff for the eye; a sequence "
-                "has #### for the frame number. Video: .y4m, - for y4m on standard output, and "
-                ".mp4 .mkv .webm where the program ffmpeg is installed"},
+                fmt::format(
+                    "Picture: {} linear, {} for the eye; a sequence has #### for the frame number. "
+                    "Video: .y4m, - for y4m on standard output, and .mp4 .mkv .webm where the "
+                    "program ffmpeg is installed",
+                    joined(image_extensions(ImageMeaning::linear), " "),
+                    joined(image_extensions(ImageMeaning::display), " "))},
                o.output, output_file)
         .text({"--stats", "FILE", "", "Times and counts as JSON; - for standard output"}, o.stats)
         .rest()
@@ -199,6 +201,12 @@ void check_format(const SharedOptions& shared, const OutputOptions& options) {
 }
 
 }  // namespace
+
+std::vector<std::string> output_extensions() {
+    std::vector<std::string> out = image_extensions();
+    for (const std::string& video : video_extensions()) out.push_back(video);
+    return out;
+}
 
 void visit_settings(OutputOptions& options, const SettingVisitor& f) {
     count_members(options);

@@ -19,6 +19,7 @@
 #include "host/scene/lights/light_tree.h"
 #include "present/cli/names.h"
 #include "present/cli/progress.h"
+#include "present/image/image_file.h"
 #include "present/image/prefiltered_cache.h"
 
 namespace kilolux {
@@ -26,9 +27,9 @@ namespace {
 
 // Whether the extension is that of a picture.
 bool is_picture(const std::filesystem::path& file) {
-    static const std::set<std::string> extensions = {".png", ".jpg", ".jpeg", ".tif",  ".tiff",
-                                                     ".exr", ".hdr", ".bmp",  ".webp", ".gif"};
-    return extensions.contains(lower(file.extension().string()));
+    std::vector<std::string> extensions = image_extensions();
+    extensions.insert(extensions.end(), {".bmp", ".webp", ".gif"});
+    return std::ranges::count(extensions, lower(file.extension().string())) > 0;
 }
 
 // Whether the extension is that of a scene in another format than glTF.

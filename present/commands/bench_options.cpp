@@ -68,6 +68,13 @@ void add_sweep_options(CLI::App& command, BenchAxes& a) {
                a.gbuffers, choices_parser<uint>(gbuffer_choices().names));
 }
 
+// The types of pictures and videos: their extensions without the point.
+std::vector<std::string> job_types() {
+    std::vector<std::string> out = output_extensions();
+    for (std::string& type : out) type.erase(0, 1);
+    return out;
+}
+
 void add_mode_options(CLI::App& command, BenchOptions& o) {
     using Text = const std::string&;
     OptionBuilder(command, "What is measured, instead of the frames of a sweep")
@@ -75,13 +82,12 @@ void add_mode_options(CLI::App& command, BenchOptions& o) {
         .flag("--tune", o.tune,
               "Search the fastest work sizes of this device and keep them for all commands")
         .value({"--job", "TYPE,...", "",
-                "Pictures a second from the command to files of these types (png, exr, jpg, tif, "
-                "hdr, y4m, mp4, mkv, webm) in a temporary folder, beside the frames alone"},
+                "Pictures a second from the command to files of these types (" +
+                    joined(job_types()) + ") in a temporary folder, beside the frames alone"},
                o.jobs,
                [](Text name, Text text) {
                    return parse_list(name, text, ',', [](Text option, std::string_view type) {
-                       const std::vector<std::string> known = {"png", "exr", "jpg", "tif", "hdr",
-                                                               "y4m", "mp4", "mkv", "webm"};
+                       const std::vector<std::string> known = job_types();
                        return known[parse_name(option, type, known)];
                    });
                })

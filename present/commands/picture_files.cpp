@@ -99,7 +99,7 @@ std::unique_ptr<VideoFile> open_video(const RenderOptions& options) {
 }
 
 std::size_t bytes_of(const Frame& frame) {
-    std::size_t bytes = (frame.radiance.size() + frame.bloomed.size()) * sizeof(float);
+    std::size_t bytes = (frame.radiance.size() + frame.shown_light.size()) * sizeof(float);
     for (const Layer& layer : frame.aovs) {
         bytes += layer.values.size() * sizeof(float) + layer.ids.size() * sizeof(std::uint32_t);
     }
@@ -140,7 +140,7 @@ FrameRequest request_of(const RenderOptions& options, const FrameRequest& asked)
     FrameRequest want = asked;
     want.display = for_the_eye || !out.reference.empty();
     want.radiance = !for_the_eye || own_display || !out.reference.empty();
-    want.bloomed = own_display;
+    want.shown_light = own_display;
     want.counts =
         !out.stats.empty() || std::ranges::find(want.aovs, "light-count") != want.aovs.end();
     return want;

@@ -11,6 +11,7 @@
 #include "host/base/system/atomic_write.h"
 #include "host/base/system/interrupt.h"
 #include "host/base/system/memory.h"
+#include "host/render/whole_picture.h"
 #include "present/cli/frame_summary.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/option_values.h"
@@ -73,7 +74,7 @@ bool wants_alpha(const RenderOptions& options) {
     const SharedOptions& shared = options.shared;
     return shared.background.kind == BackgroundChoice::Kind::none &&
            !is_video(options.output.output) && holds_alpha(options.output.output) &&
-           shared.settings.bloom == 0.0f && shared.settings.want.view == ViewKind::lit &&
+           !needs_whole_picture(shared.settings) && shared.settings.want.view == ViewKind::lit &&
            !shared.show_error;
 }
 

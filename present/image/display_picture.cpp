@@ -77,7 +77,8 @@ void set_display(Frame& frame, const std::vector<float>& rgb) {
 std::vector<float> display_colours(const Frame& frame, const RenderSettings& settings,
                                    const OcioOptions& ocio) {
     if (settings.want.view != ViewKind::lit) return display_codes(frame);
-    const std::vector<float>& light = frame.bloomed.empty() ? frame.radiance : frame.bloomed;
+    const std::vector<float>& light =
+        frame.shown_light.empty() ? frame.radiance : frame.shown_light;
     std::vector<float> rgb = light;
     const float gain = std::exp2(settings.exposure);
     for (float& v : rgb) v *= gain;

@@ -27,16 +27,18 @@ struct Format {
     const char* plugin;  // OpenImageIO's name
     ImageMeaning meaning;
     NoteForm notes;
+    bool has_alpha = false;    // may hold the covered share of pixels
+    bool has_16_bits = false;  // may hold display pictures of 16 bits a channel
 };
 
 constexpr std::array kFormats = {
-    Format{".exr", "openexr", ImageMeaning::linear, NoteForm::attributes},
+    Format{".exr", "openexr", ImageMeaning::linear, NoteForm::attributes, true},
     Format{".hdr", "hdr", ImageMeaning::linear, NoteForm::comments},
-    Format{".png", "png", ImageMeaning::display, NoteForm::attributes},
+    Format{".png", "png", ImageMeaning::display, NoteForm::attributes, true, true},
     Format{".jpg", "jpeg", ImageMeaning::display, NoteForm::description},
     Format{".jpeg", "jpeg", ImageMeaning::display, NoteForm::description},
-    Format{".tif", "tiff", ImageMeaning::display, NoteForm::description},
-    Format{".tiff", "tiff", ImageMeaning::display, NoteForm::description}};
+    Format{".tif", "tiff", ImageMeaning::display, NoteForm::description, false, true},
+    Format{".tiff", "tiff", ImageMeaning::display, NoteForm::description, false, true}};
 
 const Format& format_of(const std::filesystem::path& file) {
     const std::string extension = lower(file.extension().string());
@@ -229,24 +231,23 @@ bool float_holds(const Layer& layer) {
     return std::ranges::all_of(layer.ids, [](std::uint32_t id) { return id <= kMost; });
 }
 
-std::vector<std::string> image_extensions() {
+std::vector<std::string> image_extensions(std::optional<ImageMeaning> meaning) {
     std::vector<std::string> out;
-    for (const Format& format : kFormats) out.emplace_back(format.extension);
+    for (const Format& format : kFormats) {
+        if (!meaning || format.meaning == *meaning) out.emplace_back(format.extension);
+    }
     return out;
 }
 
 ImageMeaning image_meaning(const std::filesystem::path& file) { return format_of(file).meaning; }
 
-bool holds_16_bits(const std::filesystem::path& file) {
-    const std::string_view plugin = format_of(file).plugin;
-    return plugin == "png" || plugin == "tiff";
-}
+bool holds_16_bits(const std::filesystem::path& file) { return format_of(file).has_16_bits; }
 
 bool is_png(const std::filesystem::path& file) {
     return std::string_view(format_of(file).plugin) == "png";
 }
 
-bool holds_alpha(const std::filesystem::path& file) { return is_png(file) || holds_layers(file); }
+bool holds_alpha(const std::filesystem::path& file) { return format_of(file).has_alpha; }
 
 bool holds_layers(const std::filesystem::path& file) {
     return std::string_view(format_of(file).plugin) == "openexr";

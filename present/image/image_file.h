@@ -19,18 +19,18 @@ struct ImageLayout;
 /// HDR).
 enum class ImageMeaning { display, linear };
 
-/// The extensions of images.
-std::vector<std::string> image_extensions();
+/// The extensions of images: of one meaning, else all.
+std::vector<std::string> image_extensions(std::optional<ImageMeaning> meaning = {});
 
 /// By the extension; throws UsageError that lists the known ones.
 ImageMeaning image_meaning(const std::filesystem::path& file);
 
-/// Whether the format can hold display pictures of 16 bits a channel: PNG and TIFF.
+/// Whether the format can hold display pictures of 16 bits a channel.
 bool holds_16_bits(const std::filesystem::path& file);
 
 bool is_png(const std::filesystem::path& file);
 
-/// Whether the format can hold the covered share of pixels: PNG and EXR.
+/// Whether the format can hold the covered share of pixels.
 bool holds_alpha(const std::filesystem::path& file);
 
 /// Whether the format keeps named channels beside the colour: EXR.

@@ -94,26 +94,27 @@ RgbImage rgb_image_of(const Array<double>& picture, const std::string& what) {
     return out;
 }
 
-std::vector<SceneLight> lights_of(const LightArrays& arrays) {
-    const py::ssize_t count = arrays.range.size();
-    require_rows(arrays.position, count, 3, "lights: position");
-    require_rows(arrays.direction, count, 3, "lights: direction");
-    require_rows(arrays.intensity, count, 3, "lights: intensity");
+std::vector<SceneLight> lights_of(const std::string& kind,
+                                  const std::map<std::string, Array<double>>& arrays) {
+    const Array<double>&position = arrays.at("position"), &direction = arrays.at("direction"),
+          &intensity = arrays.at("intensity");
+    const py::ssize_t count = position.shape(0);
     std::vector<SceneLight> out(static_cast<std::size_t>(count));
-    const LightType type = type_of(arrays.kind);
+    const LightType type = type_of(kind);
     for (py::ssize_t i = 0; i < count; ++i) {
         SceneLight& light = out[static_cast<std::size_t>(i)];
         light.type = type;
-        light.position = row(arrays.position, i);
-        light.intensity = glm::vec3(row(arrays.intensity, i));
-        light.range = static_cast<float>(arrays.range.data()[i]);
+        light.position = row(position, i);
+        light.intensity = glm::vec3(row(intensity, i));
+        for (const LightNumber& number : kLightNumbers) {
+            if (!(kind_of(type).*number.has)) continue;
+            light.*number.member = static_cast<float>(arrays.at(number.name).data()[i]);
+        }
         if (!kind_of(type).is_aimed) continue;
-        light.direction = glm::normalize(row(arrays.direction, i));
+        light.direction = glm::normalize(row(direction, i));
         if (!std::isfinite(light.direction.x)) {
             throw Error(fmt::format("lights: direction of light {} is zero or not finite", i));
         }
-        light.inner_cone = static_cast<float>(arrays.inner.data()[i]);
-        light.outer_cone = static_cast<float>(arrays.outer.data()[i]);
         if (kind_of(type).has_cone && !(light.inner_cone < light.outer_cone)) {
             throw Error(fmt::format("lights: inner cone {} of light {} is not below the outer {}",
                                     light.inner_cone, i, light.outer_cone));

@@ -6,6 +6,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -38,13 +39,10 @@ pybind11::dict frame_arrays(const std::shared_ptr<Frame>& frame);
 /// A picture of shape (height, width, 3). Throws Error that names `what` for another shape.
 RgbImage rgb_image_of(const Array<double>& picture, const std::string& what);
 
-/// Lights from arrays of `count` rows: position and direction [count, 3] [m], intensity [count, 3]
-/// [cd] or [lx], range [count] [m], inner and outer [count], half angles [rad].
-struct LightArrays {
-    std::string kind;  // "point", "spot", "directional"
-    Array<double> position, direction, intensity, range, inner, outer;
-};
-std::vector<SceneLight> lights_of(const LightArrays& arrays);
+/// Lights of a kind from arrays of `count` rows: "position" and "direction" [count, 3] [m],
+/// "intensity" [count, 3] [cd] or [lx], and each of kLightNumbers by its name [count].
+std::vector<SceneLight> lights_of(const std::string& kind,
+                                  const std::map<std::string, Array<double>>& arrays);
 
 /// A mesh from arrays: positions and normals [n, 3], texcoords [n, 2] or empty, colors [n, 4] or
 /// empty, indices [m, 3]. Throws Error for sizes that differ, indices out of range and values that

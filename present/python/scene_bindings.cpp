@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "host/base/error.h"
+#include "host/scene/lights/light_kinds.h"
 #include "present/python/arrays.h"
 #include "present/python/bindings.h"
 
@@ -80,11 +81,11 @@ void add_scenes(py::module_& module) {
         .def(py::init<>())
         .def("extend",
              [](Lights& to, const Lights& more) { to.insert(to.end(), more.begin(), more.end()); });
-    module.def("lights", [](const std::string& kind, const Array<double>& position,
-                            const Array<double>& direction, const Array<double>& intensity,
-                            const Array<double>& range, const Array<double>& inner,
-                            const Array<double>& outer) {
-        return lights_of({kind, position, direction, intensity, range, inner, outer});
+    module.def("lights", lights_of);
+    module.def("light_numbers", [] {
+        std::vector<std::string> names;
+        for (const LightNumber& number : kLightNumbers) names.emplace_back(number.name);
+        return names;
     });
     py::class_<Scene>(module, "Scene")
         .def(py::init([](const std::string& name) {

@@ -90,10 +90,10 @@ TEST(Background, ChangesNoBitOfBandsSamplesAndBloom) {
     EXPECT_EQ(whole.radiance, bands.radiance);
     EXPECT_EQ(whole.display, bands.display);
     // Bloom carries the background's light over the surfaces' edges.
-    settings.want.bloomed = true;
+    settings.want.shown_light = true;
     const Frame bloomed = render_once(scene, settings);
     settings.background.reset();
-    EXPECT_NE(render_once(scene, settings).bloomed, bloomed.bloomed);
+    EXPECT_NE(render_once(scene, settings).shown_light, bloomed.shown_light);
 }
 
 TEST(Background, IsSeenThroughWhatBlends) {

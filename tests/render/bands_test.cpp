@@ -35,7 +35,7 @@ std::uint64_t least_memory(const Scene& scene, RenderSettings settings) {
 
 void expect_same_frame(const Frame& banded, const Frame& whole) {
     EXPECT_EQ(banded.radiance, whole.radiance);
-    EXPECT_EQ(banded.bloomed, whole.bloomed);
+    EXPECT_EQ(banded.shown_light, whole.shown_light);
     EXPECT_EQ(banded.display, whole.display);
     ASSERT_EQ(banded.aovs.size(), whole.aovs.size());
     for (std::size_t i = 0; i < whole.aovs.size(); ++i) {
@@ -155,7 +155,7 @@ TEST(Bands, RowsOfTwoRenderersMakeThePicture) {
     }
     settings.samples = 3;
     settings.bloom = 0.3f;
-    settings.want.bloomed = true;
+    settings.want.shown_light = true;
     expect_same_by_rows(scene, settings);
     settings.samples = 1;
     settings.want.aovs.clear();

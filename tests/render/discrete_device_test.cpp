@@ -17,7 +17,7 @@ RenderSettings settings_with(Geometry geometry) {
     settings.geometry = geometry;
     settings.anisotropy = 1;
     settings.bloom = 0.1f;
-    settings.want.bloomed = true;
+    settings.want.shown_light = true;
     settings.want.aovs = {"depth", "normal", "position"};
     return settings;
 }
@@ -44,7 +44,7 @@ void expect_same_picture(const Scene& scene, const RenderSettings& settings) {
     const Frame again = renderer.render(first_camera(scene), 0.0);
     EXPECT_EQ(first.radiance, again.radiance) << "a second frame stages into the same memory";
     expect_close(first.radiance, host.radiance);
-    expect_close(first.bloomed, host.bloomed);
+    expect_close(first.shown_light, host.shown_light);
     ASSERT_EQ(first.aovs.size(), host.aovs.size());
     for (std::size_t i = 0; i < host.aovs.size(); ++i) {
         expect_close(first.aovs[i].values, host.aovs[i].values);

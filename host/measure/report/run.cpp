@@ -85,7 +85,6 @@ void ReportRun::on_step(std::function<void()> call) {
 RenderSettings ReportRun::at_error_size(RenderSettings settings) const {
     settings.width = error_size_[0];
     settings.height = error_size_[1];
-    settings.bloom = 0.0f;  // changes the display only
     settings.opened = opened_;
     return settings;
 }

@@ -83,7 +83,7 @@ class ReportRun {
     ReportReferences& references() { return references_; }
     /// Size of the comparison [pixel].
     std::array<int, 2> error_size() const { return error_size_; }
-    /// The settings of the comparison: at that size and without bloom, on the device of the report.
+    /// The settings of the comparison: at that size, on the device of the report.
     RenderSettings at_error_size(RenderSettings settings) const;
 
  private:

@@ -10,13 +10,13 @@
 #include "host/picture/bands.h"
 #include "host/picture/decoded_surfaces.h"
 #include "host/render/forward_shading.h"
+#include "host/render/whole_picture.h"
 #include "host/stages/lights/drift_lights.h"
 #include "host/stages/lights/move_lights.h"
 #include "host/stages/lights/prepare_lights.h"
 #include "host/stages/lists/bin_pixels.h"
 #include "host/stages/lists/count_lights.h"
 #include "host/stages/picture/adaptive_samples.h"
-#include "host/stages/picture/bloom.h"
 #include "host/stages/picture/sum_samples.h"
 #include "host/stages/shading/fill_background.h"
 #include "host/stages/shadows/shadow_origins.h"
@@ -102,13 +102,6 @@ Bytes picture_pixel_bytes(const RenderSettings& settings) {
     return bytes;
 }
 
-// Bytes of a pixel of bloom, which mixes the whole picture, and of the display picture made from
-// it.
-Bytes bloom_pixel_bytes(const RenderSettings& settings) {
-    if (settings.bloom <= 0.0f) return 0;
-    return Radiance::kPixelBytes + Bloom::kPixelBytes + DisplayTarget::kPixelBytes;
-}
-
 // Bytes of the scene on the device, for any picture size.
 Bytes scene_device_bytes(const Scene& scene, const RenderSettings& settings, const ScenePlan& plan,
                          bool ids) {
@@ -152,7 +145,7 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
     const bool ids = resolves_ids(settings.geometry) && !is_forward(settings.renderer);
     Need need;
     const Bytes on_device = scene_device_bytes(scene, settings, plan, ids);
-    need.device_fixed = on_device + width * height * bloom_pixel_bytes(settings);
+    need.device_fixed = on_device + width * height * whole_picture_pixel_bytes(settings);
     need.fixed = kProgram + scene_bytes(scene, !ids || blends) + need.device_fixed +
                  width * height * picture_pixel_bytes(settings);
     if (settings.want.view == ViewKind::difference)

@@ -35,18 +35,19 @@ static_assert([] {
 }());  // for kind_of()
 
 /// A number that some kinds of light have, in a file as here; 0 is a file's default. The loader,
-/// its rules, the exporter and the test of a light's usability loop over these.
+/// its rules, the exporter, Python and the test of a light's usability loop over these.
 struct LightNumber {
     std::string_view path;  // in a light of KHR_lights_punctual
+    const char* name;       // in Python
     float SceneLight::*member;
     bool LightKind::*has;      // the kinds that have it
     bool is_positive = false;  // a light of 0 or less gives none
 };
 
 inline constexpr auto kLightNumbers = std::to_array<LightNumber>({
-    {"range", &SceneLight::range, &LightKind::is_placed, true},
-    {"spot.innerConeAngle", &SceneLight::inner_cone, &LightKind::has_cone},
-    {"spot.outerConeAngle", &SceneLight::outer_cone, &LightKind::has_cone, true},
+    {"range", "range", &SceneLight::range, &LightKind::is_placed, true},
+    {"spot.innerConeAngle", "inner_cone", &SceneLight::inner_cone, &LightKind::has_cone},
+    {"spot.outerConeAngle", "outer_cone", &SceneLight::outer_cone, &LightKind::has_cone, true},
 });
 
 constexpr const LightKind& kind_of(LightType type) {

@@ -53,7 +53,7 @@ class Lights:
         if intensity.ndim == 1 and intensity.shape != (3,):
             intensity = intensity[:, None]
         columns = {name: arrays.floats(getattr(self, name), f"lights: {name}")
-                   for name in ("range", "inner_cone", "outer_cone")}
+                   for name in _native.light_numbers()}
         direction = arrays.floats(self.direction, "lights: direction")
         return {"position": position, "direction": _fill("direction", direction, (count, 3)),
                 "intensity": _fill("intensity", intensity, (count, 3)),
@@ -70,7 +70,7 @@ class Lights:
                 warnings.warn(f"lights: {name} of light {first} is {values[name][first]}; {rows.sum()} of {len(rows)} "
                               "lights are left out for theirs", stacklevel=4)
                 values["intensity"] = np.where(rows[:, None], np.nan, values["intensity"])
-        return _native.lights(self.kind, *(np.ascontiguousarray(array) for array in values.values()))
+        return _native.lights(self.kind, values)
 
 
 def _fill(name: str, values: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
