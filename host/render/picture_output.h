@@ -26,8 +26,8 @@ class PictureOutput {
     /// Takes over other settings. Throws Error.
     void set(const RenderSettings& settings);
 
-    /// Gives the frame's pictures room for these rows. `by_rows`: stages over the whole picture read
-    /// the light of a picture that is made by rows from Frame::radiance.
+    /// Gives the frame's pictures room for these rows. `by_rows`: stages over the whole picture
+    /// read the light of a picture that is made by rows from Frame::radiance.
     void resize(Frame& frame, Band rows, bool shown_only, bool by_rows) const;
 
     /// Begins a frame that has its size.

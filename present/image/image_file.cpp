@@ -66,6 +66,9 @@ void add_display(ImageLayout& layout, const std::filesystem::path& file,
         // colour space is written: readers take a TIFF without a profile for sRGB, and with "sRGB"
         // OpenImageIO 2.4 writes an Exif directory that breaks the file.
         layout.attributes = {{"Compression", "zip"}, {"DateTime", "    :  :     :  :  "}};
+        constexpr std::size_t kMostTiff = std::size_t{1} << 31;  // [byte] of 2^32, with a reserve
+        const bool is_big = layout.pixels() * layout.pixel_bytes() > kMostTiff;
+        if (is_big) layout.attributes.emplace_back("tiff:bigtiff", 1);
         return;
     }
     if (!options.alpha.empty()) add_channels(layout, {"A"}, type);
