@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The numerically hard cases and the metamorphic tests, each at every lane width.
+// The numerically hard cases and the metamorphic tests, each at several lane widths.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdlib>
 
 #include "host/certify/hard_case.h"
+#include "tests/support/full.h"
 
 namespace kilolux {
 namespace {
@@ -41,7 +42,7 @@ std::string name_of(const testing::TestParamInfo<Parameter>& info) {
 
 INSTANTIATE_TEST_SUITE_P(All, HardCases,
                          testing::Combine(testing::ValuesIn(hard_cases()),
-                                          testing::Values(1, 2, 4, 8, 16)),
+                                          testing::ValuesIn(lane_widths())),
                          name_of);
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "host/measure/reference/ray_cast_reference.h"
 #include "host/scene/generated/scenes.h"
 #include "tests/certify/triangle_drawing.h"
+#include "tests/support/full.h"
 #include "tests/support/quad_scene.h"
 #include "tests/support/render_fixture.h"
 
@@ -128,7 +129,7 @@ TEST(TriangleIds, SliversAreAsNearAsTheyAre) {
     }
 }
 
-// Every lane width, tile and work-group, and bands of rows.
+// Lane widths, tiles and work-groups, and bands of rows.
 TEST(TriangleIds, AreTheSameOnEveryWay) {
     const Scene scene = make_generated_scene("grid");
     const Camera camera = first_camera(scene);
@@ -136,7 +137,7 @@ TEST(TriangleIds, AreTheSameOnEveryWay) {
     const Gpu gpu = test_gpu();
     const std::vector<Shown> expected = Drawing(scene).at(camera, kWidth, kHeight);
     EXPECT_GT(std::ranges::count_if(expected, [](const Shown& s) { return s != Shown{}; }), 4000);
-    for (const int lanes : {1, 2, 4, 8, 16}) {
+    for (const int lanes : lane_widths()) {
         for (const auto& [width, height, group] :
              {std::array{16, 64, 1}, std::array{64, 16, 1}, std::array{32, 32, 64}}) {
             if (group > 1 && lanes > 1) continue;

@@ -24,7 +24,7 @@ TAILS = [("render_tests", "Tails.*")]
 BLOOM = [("render_tests", "Bloom.*")]
 SAMPLES = [("opencl_tests", "AdaptiveSamples.*"), ("render_tests", "SamplePattern.*:Samples.*:AutoSamples.*")]
 SHADOWS = [("opencl_tests", "ShadowTriangle.*:CountSeen.*:CastShadows.*"), ("render_tests", "Shadows.*:SampledShadows.*:ShadowError.*")]
-PICTURES = [("certify_tests", "All/HardCases.*Lanes8"), ("render_tests", "Paths.*:Bands.*:Views.*")]
+PICTURES = [("certify_tests", "All/HardCases.*Lanes16"), ("render_tests", "Paths.*:Bands.*:Views.*")]
 
 # The first that fits a path below kernels/.
 STEPS = (

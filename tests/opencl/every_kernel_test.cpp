@@ -26,6 +26,7 @@ struct Variant {
     uint layout = GBUFFER_PACKED;
     int shading = SHADING_PBR;
     std::uint32_t light_count = 70;
+    uint width = 33;
 };
 
 Tuning tuning_of(const Gpu& gpu, const Variant& v) {
@@ -85,7 +86,7 @@ void run_every_kernel(const Variant& v) {
     const Tuning tuning = tuning_of(gpu, v);
     const KernelFeatures features = features_of(v);
     ViewShape shape;
-    shape.width = 33;
+    shape.width = v.width;
     shape.height = 17;
     const View view = make_view(shape);
     LightMix mix;
@@ -134,7 +135,7 @@ void run_every_kernel(const Variant& v) {
 TEST(EveryKernel, OneItemAGroup) { run_every_kernel({}); }
 
 TEST(EveryKernel, LargeGroupsAndSeveralBatches) {
-    run_every_kernel({1, 64, 4, 16, 32, GBUFFER_FULL, SHADING_LAMBERT, 150});
+    run_every_kernel({1, 64, 4, 16, 32, GBUFFER_FULL, SHADING_LAMBERT, 100, 17});
 }
 
 TEST(EveryKernel, LanesAndLargeGroups) {

@@ -6,6 +6,7 @@
 #include "host/certify/shadow_scenarios.h"
 #include "host/measure/bench/lighting_bench.h"
 #include "host/measure/reference/shadow_caster.h"
+#include "tests/support/full.h"
 #include "tests/support/render_fixture.h"
 
 namespace kilolux {
@@ -127,7 +128,7 @@ TEST(Shadows, AreTheSameBitsForEveryLaunch) {
         EXPECT_EQ(bench.run(request).picture, picture) << group << " work-items";
     }
     request.tuning.tuning.shadow_group = 1;
-    for (const int lanes : {1, 2, 4, 8, 16}) {
+    for (const int lanes : lane_widths()) {
         request.tuning.lanes = lanes;
         request.tuning.tuning.shade_rows = 1;
         EXPECT_EQ(bench.run(request).picture, picture) << lanes << " lanes";

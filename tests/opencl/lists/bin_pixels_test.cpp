@@ -10,6 +10,7 @@
 
 #include "host/certify/synthetic/host_lists.h"
 #include "host/certify/synthetic/synthetic.h"
+#include "tests/support/full.h"
 #include "tests/support/slice_search.h"
 #include "tests/support/test_gpu.h"
 
@@ -172,8 +173,8 @@ TEST(BinPixels, AgreesWithAMapOfPixelsAtEverySize) {
     expect_case({"slanted", 1919, 1079, slanted_depth(0.3, 60.0, 1919)});
 }
 
-TEST(BinPixels, AgreesAtEveryLaneWidthAndGroupSize) {
-    for (const int lanes : {1, 2, 4, 8, 16}) {
+TEST(BinPixels, AgreesAtLaneWidthsAndGroupSizes) {
+    for (const int lanes : lane_widths()) {
         for (const int group : {1, 7, 64, 256})
             expect_case({"noise", 70, 45, wide_noise(), lanes, group});
     }

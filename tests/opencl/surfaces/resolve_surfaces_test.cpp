@@ -15,6 +15,7 @@
 #include "host/stages/surfaces/decode_gbuffer.h"
 #include "host/stages/surfaces/raster_triangles.h"
 #include "kernels/shared/surface_planes.h"
+#include "tests/support/full.h"
 #include "tests/support/test_gpu.h"
 
 namespace kilolux {
@@ -173,11 +174,11 @@ std::vector<std::byte> resolved(const Gpu& gpu, uint layout, int anisotropy,
     return kept;
 }
 
-TEST(ResolveSurfaces, EveryLaneWidthGivesTheSameBits) {
+TEST(ResolveSurfaces, LaneWidthsGiveTheSameBits) {
     if (!test_gpu().info.is_cpu) GTEST_SKIP() << "promised on CPUs";
     for (uint layout = GBUFFER_PACKED; layout <= GBUFFER_OCT_2X4; ++layout) {
         const auto one = resolved(test_gpu(1), layout, 1);
-        for (const int lanes : {2, 4, 8, 16}) {
+        for (const int lanes : lane_widths()) {
             EXPECT_EQ(resolved(test_gpu(lanes), layout, 1), one) << layout << ' ' << lanes;
         }
     }

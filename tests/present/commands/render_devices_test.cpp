@@ -160,7 +160,7 @@ TEST_F(RenderDevices, MakeAPictureByOneWhereOpenGlLights) {
 // So many frames that the second device, which begins later, has its part.
 TEST_F(RenderDevices, ShareALongVideo) {
     const auto video = [&](const fs::path& file, const std::string& devices) {
-        std::vector<std::string> all = words(file, devices, "0:299", "640,360");
+        std::vector<std::string> all = words(file, devices, "0:119", "640,360");
         all.insert(all.end(), {"--samples", "4"});
         return run_child(all);
     };

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdlib>
+#include <vector>
+
+namespace kilolux {
+
+/// Whether tests/run --full runs the program: then cases that repeat others run, too.
+inline bool runs_full() { return std::getenv("KILOLUX_TEST_FULL") != nullptr; }
+
+/// Lane widths of tests that are alike at each: scalars, and what shipped tunings have; in --full
+/// all.
+inline std::vector<int> lane_widths() {
+    return runs_full() ? std::vector{1, 2, 4, 8, 16} : std::vector{1, 2, 16};
+}
+
+}  // namespace kilolux
