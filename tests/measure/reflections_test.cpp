@@ -18,12 +18,17 @@ constexpr double kPi = std::numbers::pi;
 
 using Radiance = std::function<glm::dvec3(const glm::dvec3&)>;
 
-Environment map_of(const Radiance& radiance) {
+struct Map {
+    Environment whole;
+    std::shared_ptr<const PrefilteredEnvironment> filtered;
+};
+
+Map map_of(const Radiance& radiance) {
     Environment out{256, 128, {}};
     for (int y = 0; y < out.height; ++y) {
         for (int x = 0; x < out.width; ++x) out.rows.emplace_back(radiance(out.direction(x, y)));
     }
-    return out;
+    return {out, std::make_shared<const PrefilteredEnvironment>(prefiltered(out))};
 }
 
 // A bright window, a dim one, and a gradient.
@@ -101,7 +106,7 @@ glm::dvec3 integral(const Environment& map, const SurfaceSample& s, const Camera
     return s.occlusion * out;
 }
 
-Pictures pictures(const Environment& map, const Material& material, bool with_integral = true) {
+Pictures pictures(const Map& map, const Material& material, bool with_integral = true) {
     const Scene scene = sphere(material);
     RenderSettings settings;
     settings.width = settings.height = 16;
@@ -109,7 +114,7 @@ Pictures pictures(const Environment& map, const Material& material, bool with_in
     settings.ambient = 0.0f;
     settings.gbuffer = GBUFFER_FULL;
     settings.shading = Shading::pbr;
-    settings.reflections = std::make_shared<const PrefilteredEnvironment>(prefiltered(map));
+    settings.reflections = map.filtered;
     Renderer renderer(scene, settings);
     Pictures out;
     out.camera = look_at({0.5, 0.8, 4.0}, {0, 0, 0}, {0, 1, 0}, 0.55);
@@ -127,7 +132,7 @@ Pictures pictures(const Environment& map, const Material& material, bool with_in
         if (glm::dot(s.normal, -glm::normalize(s.position)) < 0.1) continue;
         out.seen.push_back(seen);
         out.surfaces.push_back(s);
-        if (with_integral) out.expected.push_back(integral(map, s, out.camera));
+        if (with_integral) out.expected.push_back(integral(map.whole, s, out.camera));
     }
     EXPECT_GT(out.seen.size(), 100u);
     return out;
@@ -138,7 +143,7 @@ TEST(Reflections, ErrorsAreThoseOfTheSplitSum) {
     struct Row {
         double roughness, metallic, most;
     };
-    const Environment map = map_of(room);
+    const Map map = map_of(room);
     for (const Row& row : {Row{0.25, 1, 0.05}, Row{0.5, 1, 0.13}, Row{1.0, 1, 0.12},
                            Row{0.25, 0, 0.01}, Row{0.5, 0, 0.01}, Row{1.0, 0, 0.01}}) {
         const double error = pictures(map, material_of(row.roughness, row.metallic)).error();
@@ -148,7 +153,7 @@ TEST(Reflections, ErrorsAreThoseOfTheSplitSum) {
 
 // A constant environment needs no filter: only the table's error remains.
 TEST(Reflections, AWhiteRoomIsReflectedExactly) {
-    const Environment map = map_of([](const glm::dvec3&) { return glm::dvec3(1.0); });
+    const Map map = map_of([](const glm::dvec3&) { return glm::dvec3(1.0); });
     for (const double roughness : {0.25, 1.0}) {
         EXPECT_LT(pictures(map, material_of(roughness, 1.0)).error(), 0.01) << roughness;
         EXPECT_LT(pictures(map, material_of(roughness, 0.0)).error(), 0.01) << roughness;

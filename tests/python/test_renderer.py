@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """A renderer that is kept: every picture is the one that a new renderer would make."""
+import functools
 import os
 import signal
 import subprocess
@@ -37,6 +38,7 @@ def test_automatic_tails_follow_lights_and_shadows(count):
 
     glow = kilolux.render("grid", **{**options, "lights": []}).radiance.sum()  # the scene's own
 
+    @functools.cache
     def light(**more):
         return kilolux.render("grid", **options, **more).radiance.sum() - glow
 

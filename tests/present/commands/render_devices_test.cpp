@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <signal.h>
+#include <sys/mount.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -119,6 +120,7 @@ TEST_F(RenderDevices, LeaveNothingOfAPictureThatIsInterrupted) {
         kill(child, SIGTERM);
     });
     EXPECT_EQ(result.code, 130) << result.err;
+    EXPECT_FALSE(contains(result.err, "left out")) << "no device has failed\n" << result.err;
     EXPECT_TRUE(names_in(two_).empty());
 }
 
@@ -206,6 +208,51 @@ TEST_F(RenderDevices, EndTogetherWhenInterrupted) {
             fs::exists(two_ / ("f." + std::string(6 - number.size(), '0') + number + ".png")))
             << "the first " << count << " and no other file";
     }
+}
+
+// The folder's pictures are those of one device; returns their number.
+std::size_t expect_whole_pictures(const TemporaryFolder& folder, const TemporaryFolder& of_one) {
+    std::size_t count = 0;
+    for (const std::string& name : names_in(folder)) {
+        if (name.starts_with(".kilolux-")) continue;  // what a killed program was writing
+        EXPECT_TRUE(text_of_file(folder / name) == text_of_file(of_one / name)) << name;
+        ++count;
+    }
+    return count;
+}
+
+TEST_F(RenderDevices, LeaveWholePicturesWhenKilled) {
+    const ChildResult killed =
+        run_child(words(two_ / "f.######.png", "0,1", "0:99999"), [&](pid_t child) {
+            while (names_in(two_).size() < 4 && waitpid(child, nullptr, WNOHANG) == 0)
+                usleep(10'000);
+            kill(child, SIGKILL);
+        });
+    EXPECT_EQ(killed.signal, SIGKILL) << killed.err;
+    const std::string frames = "0:" + std::to_string(names_in(two_).size() + 3);
+    ASSERT_EQ(run_child(words(one_ / "f.######.png", "0", frames)).code, 0);
+    EXPECT_GE(expect_whole_pictures(two_, one_), 3u);
+    std::vector<std::string> rest = words(two_ / "f.######.png", "0,1", frames);
+    rest.emplace_back("--skip-existing");
+    const ChildResult result = run_child(rest);
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_EQ(expect_whole_pictures(two_, one_), names_in(one_).size());
+}
+
+TEST_F(RenderDevices, NameThePictureThatHasNoRoom) {
+    ASSERT_EQ(run_child(words(one_ / "f.##.png", "0", "0:30")).code, 0);
+    if (mount("kilolux", two_.path().c_str(), "tmpfs", 0, "size=48k") != 0) {
+        GTEST_SKIP() << "no permission to mount a tmpfs";
+    }
+    const ChildResult result = run_child(words(two_ / "f.##.png", "0,1", "0:30"));
+    const std::size_t count = expect_whole_pictures(two_, one_);
+    EXPECT_EQ(names_in(two_).size(), count) << "and no other file";
+    EXPECT_EQ(umount(two_.path().c_str()), 0);
+    EXPECT_EQ(result.code, 1) << result.err;
+    EXPECT_GT(count, 0u);
+    EXPECT_LT(count, 31u);
+    EXPECT_TRUE(contains(result.err, ".png: cannot write: No space left on device")) << result.err;
+    EXPECT_FALSE(contains(result.err, "left out")) << "no device has failed\n" << result.err;
 }
 
 TEST_F(RenderDevices, AreRefusedWhereTheyCannotShare) {
