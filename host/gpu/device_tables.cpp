@@ -4,6 +4,7 @@
 #include <span>
 
 #include "host/base/formats/srgb.h"
+#include "host/gpu/program.h"
 
 namespace kilolux {
 namespace {

@@ -11,6 +11,7 @@
 #include "host/base/system/atomic_write.h"
 #include "host/base/system/interrupt.h"
 #include "host/base/text.h"
+#include "present/cli/conditions.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/progress.h"
 #include "present/cli/stats_json.h"

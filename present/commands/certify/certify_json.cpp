@@ -6,6 +6,7 @@
 
 #include "host/base/error.h"
 #include "host/base/system/read_text.h"
+#include "present/cli/conditions.h"
 #include "present/commands/certify/certify.h"
 
 namespace kilolux {
