@@ -4,9 +4,6 @@
 #include <fmt/format.h>
 
 #include <CLI/Config.hpp>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -16,6 +13,7 @@
 
 #include "host/base/error.h"
 #include "host/base/suggest.h"
+#include "host/base/system/read_text.h"
 #include "present/program.h"
 
 namespace kilolux {
@@ -23,15 +21,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Entries = std::vector<std::pair<std::string, std::string>>;  // option's name and text
-
-std::string read_text(const std::filesystem::path& file) {
-    errno = 0;
-    std::ifstream in(file);
-    std::ostringstream text;
-    text << in.rdbuf();  // an empty file sets failbit of `text`, not of `in`
-    if (!in || errno != 0) throw Error(file.string() + ": cannot read: " + std::strerror(errno));
-    return text.str();
-}
 
 std::string value_text(const std::filesystem::path& file, const std::string& name,
                        const Json& value) {

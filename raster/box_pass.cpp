@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "raster/gbuffer_targets.h"
 #include "raster/gl_debug.h"
 #include "raster/gl_program.h"
 
@@ -13,14 +14,6 @@ namespace {
 
 constexpr GLsizei kEdgeVertices = 24;  // two an edge
 constexpr GLuint kAttributes = 3;
-
-GlTexture depth_texture(int width, int height) {
-    GlTexture texture = make_texture(GL_TEXTURE_2D);
-    glTextureStorage2D(texture.name(), 1, GL_R32F, width, height);
-    glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    return texture;
-}
 
 }  // namespace
 
@@ -55,7 +48,7 @@ void BoxPass::set_boxes(std::span<const DrawnBox> boxes, const Camera& from) {
 void BoxPass::set_depths(std::span<const float> depths, int width, int height) {
     constexpr float kNothing = 0.0f;
     const bool empty = depths.empty();
-    depths_ = depth_texture(empty ? 1 : width, empty ? 1 : height);
+    depths_ = make_target(GL_R32F, empty ? 1 : width, empty ? 1 : height);
     glTextureSubImage2D(depths_.name(), 0, 0, 0, empty ? 1 : width, empty ? 1 : height, GL_RED,
                         GL_FLOAT, empty ? &kNothing : depths.data());
 }

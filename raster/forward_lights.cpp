@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <array>
-#include <string>
 #include <vector>
 
 #include "host/base/error.h"

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <initializer_list>
-#include <string>
 
 #include "raster/gl_debug.h"
 #include "raster/parted_draw.h"

@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <optional>
 #include <string>
-#include <string_view>
 
 #include "host/base/error.h"
 #include "raster/gl_context.h"
@@ -30,6 +28,8 @@ ElementFormat element_format(uint bytes) {
     return {GL_R32UI, GL_RGBA32UI, GL_UNSIGNED_INT};
 }
 
+}  // namespace
+
 GlTexture make_target(GLenum format, int width, int height) {
     GlTexture texture = make_texture(GL_TEXTURE_2D);
     glTextureStorage2D(texture.name(), 1, format, width, height);
@@ -37,8 +37,6 @@ GlTexture make_target(GLenum format, int width, int height) {
     glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     return texture;
 }
-
-}  // namespace
 
 // Each plane has a target of its own; where there are more than eight, up to three of one size
 // share one. Reading a target's fourth component alone is not in OpenGL's core profile.
@@ -162,12 +160,8 @@ void read_from_texture(const GBufferTargets& targets, const PlaneRead& read, Row
 }  // namespace
 
 void read_plane(const GBufferTargets& targets, const PlaneRead& read, uint stride,
-                void* destination) {
-    read_plane(targets, read, stride, {0, targets.height()}, destination);
-}
-
-void read_plane(const GBufferTargets& targets, const PlaneRead& read, uint stride, RowRange rows,
-                void* destination) {
+                void* destination, RowRange rows) {
+    if (rows.count == 0) rows.count = targets.height();
     glPixelStorei(GL_PACK_ALIGNMENT, stride % 4 == 0 ? 4 : 1);
     const bool padded = stride != static_cast<uint>(targets.width());
     if (padded) glPixelStorei(GL_PACK_ROW_LENGTH, static_cast<GLint>(stride));

@@ -59,21 +59,22 @@ class GBufferTargets {
 /// The most pixels a side that the driver can draw.
 int largest_target();
 
+/// A texture of one level whose texels are read unfiltered.
+GlTexture make_target(GLenum format, int width, int height);
+
 /// Throws Error unless the driver can draw into targets of this size [pixel].
 void check_target_size(int width, int height);
 
 /// Neighbouring rows of a target, from the top.
 struct RowRange {
     int first = 0;
-    int count = 0;
+    int count = 0;  // 0: all
 };
 
 /// Reads one plane, rows `stride` elements apart, image rows from the top. `destination` is a host
 /// pointer, or an offset where a pixel pack buffer is bound. Elements past the width do not change.
 void read_plane(const GBufferTargets& targets, const PlaneRead& read, uint stride,
-                void* destination);
-void read_plane(const GBufferTargets& targets, const PlaneRead& read, uint stride, RowRange rows,
-                void* destination);
+                void* destination, RowRange rows = {});
 
 /// All planes in host memory, laid out as make_gbuffer_layout() says; 0 past the width.
 std::vector<std::byte> read_gbuffer(const GBufferTargets& targets, const GBufferLayout& layout,

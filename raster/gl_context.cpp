@@ -6,12 +6,14 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <utility>
 #include <vector>
 
 #include "host/base/error.h"
+#include "host/base/text.h"
 
 namespace kilolux {
 namespace {
@@ -47,14 +49,7 @@ std::string egl_error() {
 }
 
 bool has_word(const char* words, std::string_view word) {
-    if (words == nullptr) return false;
-    std::string_view rest = words;
-    while (!rest.empty()) {
-        const std::string_view first = rest.substr(0, rest.find(' '));
-        if (first == word) return true;
-        rest.remove_prefix(std::min(rest.size(), first.size() + 1));
-    }
-    return false;
+    return words != nullptr && std::ranges::count(split(words, ' '), word) > 0;
 }
 
 std::vector<Candidate> device_candidates(const char* client_extensions) {
@@ -142,11 +137,6 @@ EGLContext create_context(EGLDisplay display) {
     return context;
 }
 
-std::string gl_string(GLenum name) {
-    const GLubyte* text = glGetString(name);
-    return text == nullptr ? "" : reinterpret_cast<const char*>(text);
-}
-
 bool has_egl() {
     static const bool is_there = ::dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL) != nullptr;
     return is_there;
@@ -204,6 +194,11 @@ void GlContext::make_current() const {
     if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context_.get())) {
         throw Error("EGL: " + platform_ + ": eglMakeCurrent: " + egl_error());
     }
+}
+
+std::string gl_string(GLenum name) {
+    const GLubyte* text = glGetString(name);
+    return text == nullptr ? "" : reinterpret_cast<const char*>(text);
 }
 
 bool is_software_renderer() {

@@ -41,6 +41,9 @@ class GlContext {
     std::unique_ptr<void, Deleter> context_;
 };
 
+/// The driver's text of that name; empty without one.
+std::string gl_string(unsigned name);
+
 /// Whether the current context draws on the CPU (llvmpipe, softpipe, swrast).
 bool is_software_renderer();
 

@@ -51,21 +51,17 @@ using GlShader = GlObject<gl_delete::shader>;
 using GlProgram = GlObject<gl_delete::program>;
 
 /// Makes one object in the current context.
-inline GlTexture make_texture(GLenum target) {
-    GLuint name = 0;
-    glCreateTextures(target, 1, &name);
-    return GlTexture(name);
-}
-inline GlQuery make_query(GLenum target) {
-    GLuint name = 0;
-    glCreateQueries(target, 1, &name);
-    return GlQuery(name);
-}
 template <typename Object, typename Create>
 Object made_by(Create create) {
     GLuint name = 0;
     create(1, &name);
     return Object(name);
+}
+inline GlTexture make_texture(GLenum target) {
+    return made_by<GlTexture>([=](GLsizei n, GLuint* name) { glCreateTextures(target, n, name); });
+}
+inline GlQuery make_query(GLenum target) {
+    return made_by<GlQuery>([=](GLsizei n, GLuint* name) { glCreateQueries(target, n, name); });
 }
 inline GlBuffer make_buffer() { return made_by<GlBuffer>(glCreateBuffers); }
 inline GlFramebuffer make_framebuffer() { return made_by<GlFramebuffer>(glCreateFramebuffers); }

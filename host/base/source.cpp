@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 
 #include "host/base/embedded.h"
 #include "host/base/error.h"
 #include "host/base/log.h"
+#include "host/base/system/read_text.h"
 
 namespace kilolux {
 namespace {
@@ -16,11 +15,7 @@ namespace {
 std::string read_from_folder(const std::string& folder, std::string_view path) {
     warn("sources are read from KILOLUX_SOURCE_DIR=" + folder);
     const std::string file = folder + "/" + std::string(path);
-    std::ifstream in(file, std::ios::binary);
-    if (!in) throw Error(file + ": cannot be read");
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
+    return read_text(file);
 }
 
 // The path in an `#include "path"` line, or nothing.

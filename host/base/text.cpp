@@ -1,21 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/base/text.h"
 
-#include <charconv>
 #include <cmath>
 
 namespace kilolux {
-namespace {
-
-template <typename Number>
-std::optional<Number> number_of(std::string_view text) {
-    Number value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return value;
-}
-
-}  // namespace
 
 std::string shell_word(std::string_view word) {
     constexpr std::string_view kPlain =

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <charconv>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -35,6 +36,16 @@ inline std::string_view trim(std::string_view text) {
     const std::size_t first = text.find_first_not_of(kSpaces);
     if (first == std::string_view::npos) return {};
     return text.substr(first, text.find_last_not_of(kSpaces) - first + 1);
+}
+
+/// The number that all of `text` is, without sign "+"; none for any other text.
+template <typename Number>
+std::optional<Number> number_of(std::string_view text, auto... base) {
+    Number value{};
+    const auto [end, error] =
+        std::from_chars(text.data(), text.data() + text.size(), value, base...);
+    const bool is_all = error == std::errc() && end == text.data() + text.size();
+    return is_all ? std::optional(value) : std::nullopt;
 }
 
 /// A word as a shell reads it back: in single quotes, unless it is a plain one.

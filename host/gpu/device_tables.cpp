@@ -22,9 +22,10 @@ std::shared_ptr<const DeviceTables> device_tables(const Gpu& gpu) {
     return gpu.programs->tables([&] {
         const auto srgb = srgb_to_linear_table();
         const SrgbBuckets buckets = srgb_buckets();
-        return DeviceTables{uploaded_table<float>(gpu, srgb),
-                            uploaded_table<float>(gpu, buckets.boundary),
-                            uploaded_table<std::uint32_t>(gpu, buckets.code)};
+        return DeviceTables{
+            uploaded_table<float>(gpu, std::vector<float>(srgb.begin(), srgb.end())),
+            uploaded_table<float>(gpu, buckets.boundary),
+            uploaded_table<std::uint32_t>(gpu, buckets.code)};
     });
 }
 

@@ -81,8 +81,9 @@ void GBufferBridge::carry(const GBufferTargets& targets, std::vector<PlaneCopy> 
     if (!staging_ || staging_->bytes < bytes) make_staging(bytes);
     glBindBuffer(GL_PIXEL_PACK_BUFFER, staging_->pixels.name());
     for (PlaneCopy& plane : planes) {
-        read_plane(targets, plane.read, view.stride, {first_row, static_cast<int>(view.height)},
-                   reinterpret_cast<void*>(plane.offset));  // NOLINT(performance-no-int-to-ptr)
+        read_plane(targets, plane.read, view.stride,
+                   reinterpret_cast<void*>(plane.offset),  // NOLINT(performance-no-int-to-ptr)
+                   {first_row, static_cast<int>(view.height)});
         plane.done = Fence(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0));
     }
     glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/picture/decoded_surfaces.h"
 
-#include <cmath>
-
 namespace kilolux {
 double hidden_share(const DecodedSurfaces& s, std::size_t i) {
     if (s.facing[i] == 0) return 0.0;

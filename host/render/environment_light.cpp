@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 #include <span>
-#include <utility>
 
 #include "host/base/formats/srgb.h"
 #include "host/picture/shown_light.h"

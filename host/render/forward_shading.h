@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vector>
-
 #include "host/render/environment_light.h"
 #include "host/render/lit_band.h"
 #include "host/render/render_context.h"

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/picture/sample_pattern.h"
-
 namespace kilolux {
 namespace {
 

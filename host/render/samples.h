@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "host/picture/decoded_surfaces.h"
 #include "host/render/lit_band.h"

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <memory>
-#include <string>
 #include <type_traits>
 
 #include "host/base/error.h"

@@ -4,11 +4,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "host/base/error.h"
 #include "host/scene/rows/material_row.h"
-#include "host/scene/rows/vertex_rows.h"
 #include "host/surfaces/shadow_hierarchy.h"
 
 namespace kilolux {

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
 #include "host/gpu/surface_flow.h"
 #include "host/scene/camera.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/surfaces/surface_scene.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "host/base/formats/mips.h"

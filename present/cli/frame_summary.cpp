@@ -5,11 +5,9 @@
 
 #include <map>
 
-#include "host/base/formats/gbuffer_layout.h"
 #include "host/base/version.h"
 #include "host/measure/roofline/stage_report.h"
 #include "host/measure/roofline/stages.h"
-#include "present/cli/names.h"
 #include "present/cli/option_values.h"
 #include "present/video/video_file.h"
 

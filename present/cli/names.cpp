@@ -3,30 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "host/base/formats/gbuffer_layout.h"
 #include "host/measure/bench/sweep.h"
 #include "host/measure/metrics/error_metrics.h"
 #include "host/picture/aovs.h"
-#include "host/picture/views.h"
 
 namespace kilolux {
-namespace {
-
-// `names` in their order, with the meanings that `described` has for them.
-Choices ordered(const std::vector<std::string>& names, const Choices& described) {
-    Choices out(names);
-    for (const std::string& name : names) {
-        const auto found = std::find(described.names.begin(), described.names.end(), name);
-        const auto place = static_cast<std::size_t>(found - described.names.begin());
-        out.meanings.push_back(found == described.names.end() ? "" : described.meanings[place]);
-    }
-    return out;
-}
-
-}  // namespace
-
 Choices::Choices(std::initializer_list<std::pair<std::string, std::string>> described) {
     for (const auto& [name, meaning] : described) {
         names.push_back(name);
@@ -143,15 +125,11 @@ const Choices& choices_of(LightColors) {
 }
 
 Choices gbuffer_choices() {
-    std::vector<std::string> names;
-    for (uint layout = GBUFFER_PACKED; layout <= GBUFFER_OCT_2X4; ++layout) {
-        names.push_back(gbuffer_layout_name(layout));
-    }
-    return ordered(names, {{"packed", "12 bytes a pixel, more where materials need it"},
-                           {"full", "32-bit floats"},
-                           {"half", "16-bit floats for position and normal"},
-                           {"normal-xy", "two components of the normal"},
-                           {"oct-2x4", "octahedral normal, two rows of four floats"}});
+    return {{gbuffer_layout_name(GBUFFER_PACKED), "12 bytes a pixel, more where materials need it"},
+            {gbuffer_layout_name(GBUFFER_FULL), "32-bit floats"},
+            {gbuffer_layout_name(GBUFFER_HALF), "16-bit floats for position and normal"},
+            {gbuffer_layout_name(GBUFFER_NORMAL_XY), "two components of the normal"},
+            {gbuffer_layout_name(GBUFFER_OCT_2X4), "octahedral normal, two rows of four floats"}};
 }
 
 Choices aov_choices() {

@@ -106,7 +106,7 @@ OptionBuilder& OptionBuilder::number_or_auto(const OptionText& text, double& out
     return value(
         text, out,
         [range](const std::string& name, const std::string& seen) {
-            return parse_number_or_auto(name, seen, range);
+            return parse_number(name, seen, range, true);
         },
         [&out] { return out == 0.0 ? "auto" : text_of(out); });
 }

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "host/base/error.h"
@@ -25,13 +24,11 @@ std::string_view without_plus(std::string_view text) {
 }
 
 template <typename Number>
-std::optional<Number> number_of(std::string_view text) {
-    text = without_plus(text);
-    Number value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return value;
+std::optional<Number> signed_number_of(std::string_view text) {
+    return number_of<Number>(without_plus(text));
 }
+
+constexpr const char* kOrAuto[] = {"", "'auto' or "};
 
 std::string range_text(const NumberRange& range) {
     const bool bounded_above = range.max < NumberRange{}.max;
@@ -53,7 +50,7 @@ std::vector<double> parse_numbers(const std::string& option, std::string_view te
     const auto wanted = split(form, ',').size();
     std::vector<double> values;
     for (const std::string_view part : split(text, ',')) {
-        const auto value = number_of<double>(part);
+        const auto value = signed_number_of<double>(part);
         if (!value || !std::isfinite(*value)) break;
         values.push_back(*value);
     }
@@ -67,8 +64,8 @@ std::vector<double> parse_numbers(const std::string& option, std::string_view te
 std::optional<std::pair<int, int>> int_pair(std::string_view text, char separator) {
     const auto parts = split(text, separator);
     if (parts.size() != 2) return std::nullopt;
-    const auto first = number_of<int>(parts[0]);
-    const auto second = number_of<int>(parts[1]);
+    const auto first = signed_number_of<int>(parts[0]);
+    const auto second = signed_number_of<int>(parts[1]);
     if (!first || !second || *first < 0 || *second < 0) return std::nullopt;
     return std::pair{*first, *second};
 }
@@ -85,33 +82,22 @@ bool contains(const CountRange& range, double value) {
     return value >= static_cast<double>(range.min) && value <= static_cast<double>(range.max);
 }
 
-double parse_number(const std::string& option, std::string_view text, const NumberRange& range) {
-    const auto value = number_of<double>(text);
-    if (!value || !contains(range, *value)) refuse(option, text, range_text(range));
+double parse_number(const std::string& option, std::string_view text, const NumberRange& range,
+                    bool or_auto) {
+    if (or_auto && text == "auto") return 0.0;
+    const auto value = signed_number_of<double>(text);
+    if (!value || !contains(range, *value))
+        refuse(option, text, kOrAuto[or_auto] + range_text(range));
     return *value;
 }
 
-double parse_number_or_auto(const std::string& option, std::string_view text,
-                            const NumberRange& range) {
-    if (text == "auto") return 0.0;
-    const auto value = number_of<double>(text);
-    if (!value || !contains(range, *value)) refuse(option, text, "'auto' or " + range_text(range));
-    return *value;
-}
-
-std::uint64_t parse_count(const std::string& option, std::string_view text,
-                          const CountRange& range) {
+std::uint64_t parse_count(const std::string& option, std::string_view text, const CountRange& range,
+                          bool or_auto) {
+    if (or_auto && text == "auto") return 0;
     const auto value = count_of(without_plus(text));
-    if (!value || *value < range.min || *value > range.max) refuse(option, text, range_text(range));
+    if (!value || *value < range.min || *value > range.max)
+        refuse(option, text, kOrAuto[or_auto] + range_text(range));
     return *value;
-}
-
-std::uint64_t parse_count_or_auto(const std::string& option, std::string_view text,
-                                  const CountRange& range) {
-    const auto value = count_of(without_plus(text));
-    if (value && *value >= range.min && *value <= range.max) return *value;
-    if (text != "auto") refuse(option, text, "'auto' or " + range_text(range));
-    return 0;
 }
 
 std::uint64_t parse_bytes(const std::string& option, std::string_view text) {
@@ -121,7 +107,7 @@ std::uint64_t parse_bytes(const std::string& option, std::string_view text) {
     const std::size_t unit = text.empty() ? std::string_view::npos : kUnits.find(text.back());
     if (unit != std::string_view::npos) digits.remove_suffix(1);
     const int shift = unit == std::string_view::npos ? 0 : 10 * (static_cast<int>(unit) + 1);
-    const auto value = number_of<std::uint64_t>(digits);
+    const auto value = signed_number_of<std::uint64_t>(digits);
     if (!value || *value == 0 || *value > (~std::uint64_t{0} >> shift)) {
         refuse(option, text, "'auto' or a size such as 512M or 4G");
     }
@@ -134,7 +120,7 @@ std::vector<int> parse_counts(const std::string& option, std::string_view text,
     const auto parts = split(text, ',');
     const std::size_t wanted = split(form, ',').size();
     for (const std::string_view part : parts) {
-        const auto value = number_of<std::uint64_t>(part);
+        const auto value = signed_number_of<std::uint64_t>(part);
         if (value && *value >= range.min && *value <= range.max)
             values.push_back(static_cast<int>(*value));
     }
@@ -149,17 +135,16 @@ BackgroundChoice parse_background(const std::string& option, std::string_view te
     if (text == "auto") return {};
     if (text == "none") return {Kind::none};
     std::string_view hex = text.starts_with('#') ? text.substr(1) : text;
-    unsigned code = 0;
-    const auto [end, error] = std::from_chars(hex.data(), hex.data() + hex.size(), code, 16);
-    if (hex.size() == 6 && error == std::errc() && end == hex.data() + hex.size()) {
+    if (const auto code = number_of<unsigned>(hex, 16); code && hex.size() == 6) {
         const auto table = srgb_to_linear_table();
-        return {
-            Kind::color, {table[code >> 16], table[code >> 8 & 255u], table[code & 255u]}, true};
+        return {Kind::color,
+                glm::dvec3(table[*code >> 16], table[*code >> 8 & 255u], table[*code & 255u]),
+                true};
     }
     glm::vec3 color(-1.0f);
     const auto parts = split(text, ',');
     for (std::size_t i = 0; i < 3 && parts.size() == 3; ++i) {
-        const double value = number_of<double>(parts[i]).value_or(-1.0);
+        const double value = signed_number_of<double>(parts[i]).value_or(-1.0);
         color[static_cast<int>(i)] =
             contains(kZeroOrAboveRange, value) ? static_cast<float>(value) : -1.0f;
     }
@@ -250,7 +235,7 @@ LineWidth parse_line_width(const std::string& option, std::string_view text) {
     const bool percent = text.ends_with('%');
     std::string_view number = text;
     if (percent) number.remove_suffix(1);
-    const double value = number_of<double>(number).value_or(0.0);
+    const double value = signed_number_of<double>(number).value_or(0.0);
     if (!contains(kAboveZeroRange, value)) {
         refuse(option, text, "metres above 0, or a share of the scene's size such as 0.2%");
     }
@@ -261,11 +246,6 @@ std::string text_of(const LineWidth& width) {
     return width.metres ? text_of(width.value) : text_of(100.0 * width.value) + "%";
 }
 std::string text_of(const std::vector<std::string>& words) { return joined(words, ","); }
-std::string text_of(double value) { return fmt::format("{}", value); }
-std::string text_of(float value) { return fmt::format("{}", value); }
-std::string text_of(std::uint64_t value) { return fmt::format("{}", value); }
-std::string text_of(std::uint32_t value) { return fmt::format("{}", value); }
-std::string text_of(int value) { return fmt::format("{}", value); }
 std::string text_of(const glm::dvec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
 std::string text_of(const BackgroundChoice& choice) {
     using Kind = BackgroundChoice::Kind;

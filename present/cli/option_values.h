@@ -3,6 +3,8 @@
 // must be>".
 #pragma once
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -63,21 +65,14 @@ inline constexpr CountRange kSlicesRange{1, 64};  // per octave of depth
 bool contains(const NumberRange& range, double value);
 bool contains(const CountRange& range, double value);
 
-/// A finite number within `range`.
-double parse_number(const std::string& option, std::string_view text,
-                    const NumberRange& range = {});
+/// A finite number within `range`; `or_auto`: 0 for "auto".
+double parse_number(const std::string& option, std::string_view text, const NumberRange& range = {},
+                    bool or_auto = false);
 
-/// As parse_number(), and 0 for "auto".
-double parse_number_or_auto(const std::string& option, std::string_view text,
-                            const NumberRange& range);
-
-/// A whole number within `range`; also as "5k", "2M" (powers of 1000) or "1e6".
-std::uint64_t parse_count(const std::string& option, std::string_view text,
-                          const CountRange& range);
-
-/// As parse_count(), and 0 for "auto".
-std::uint64_t parse_count_or_auto(const std::string& option, std::string_view text,
-                                  const CountRange& range);
+/// A whole number within `range`; also as "5k", "2M" (powers of 1000) or "1e6"; `or_auto`: 0 for
+/// "auto".
+std::uint64_t parse_count(const std::string& option, std::string_view text, const CountRange& range,
+                          bool or_auto = false);
 
 /// Bytes as "512M", "4G" (K, M, G, T are powers of 1024) or a plain number, at least 1; "auto": 0.
 std::uint64_t parse_bytes(const std::string& option, std::string_view text);
@@ -128,11 +123,10 @@ std::vector<std::string> parse_name_list(const std::string& option, std::string_
 /// The text that an option reads back as the same value; empty for a value that was not given.
 std::string text_of(const LineWidth& width);
 std::string text_of(const std::vector<std::string>& words);
-std::string text_of(double value);
-std::string text_of(float value);
-std::string text_of(std::uint64_t value);
-std::string text_of(std::uint32_t value);
-std::string text_of(int value);
+template <typename Number>
+requires std::is_arithmetic_v<Number> std::string text_of(Number value) {
+    return fmt::to_string(value);
+}
 std::string text_of(const glm::dvec3& value);
 std::string text_of(const Box& value);
 std::string text_of(const BackgroundChoice& value);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/cli/options.h"
 
-#include "host/base/error.h"
 #include "host/base/log.h"
 #include "host/base/text.h"
 #include "host/render/plan/settings_check.h"

@@ -4,7 +4,6 @@
 
 #include <tuple>
 
-#include "host/base/error.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/options.h"
 
@@ -23,8 +22,7 @@ void take_samples(SharedOptions& o, const std::string& name, const std::string& 
     RenderSettings& s = o.settings;
     refuse_if(text == "auto" && !o.takes_automatic_samples,
               name + ": only render makes it automatic");
-    const auto parse = o.takes_automatic_samples ? parse_count_or_auto : parse_count;
-    const std::uint64_t count = parse(name, text, kSamplesRange);
+    const std::uint64_t count = parse_count(name, text, kSamplesRange, o.takes_automatic_samples);
     s.auto_samples.on = count == 0;
     if (count > 0) s.samples = static_cast<int>(count);
 }
@@ -125,8 +123,8 @@ void take_exposure(SharedOptions& o, const std::string& name, const std::string&
     o.automatic_exposure = text == "auto";
     refuse_if(o.automatic_exposure && !o.takes_automatic_exposure,
               name + ": only render makes it automatic");
-    const auto parse = o.takes_automatic_exposure ? parse_number_or_auto : parse_number;
-    o.settings.exposure = static_cast<float>(parse(name, text, kExposureRange));
+    o.settings.exposure =
+        static_cast<float>(parse_number(name, text, kExposureRange, o.takes_automatic_exposure));
 }
 
 void visit_display(const SettingVisitor& f, SharedOptions& o) {

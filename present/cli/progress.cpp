@@ -13,13 +13,6 @@
 namespace kilolux {
 namespace {
 
-std::string duration(double seconds) {
-    const auto whole = static_cast<long long>(std::ceil(seconds));
-    if (whole < 60) return fmt::format("{} s", whole);
-    if (whole < 3600) return fmt::format("{}:{:02} min", whole / 60, whole % 60);
-    return fmt::format("{}:{:02} h", whole / 3600, whole / 60 % 60);
-}
-
 int terminal_columns() {
     winsize size = {};
     if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
@@ -28,13 +21,20 @@ int terminal_columns() {
 
 }  // namespace
 
+std::string duration_text(double seconds) {
+    const auto whole = static_cast<long long>(std::ceil(seconds));
+    if (whole < 60) return fmt::format("{} s", whole);
+    if (whole < 3600) return fmt::format("{}:{:02} min", whole / 60, whole % 60);
+    return fmt::format("{}:{:02} h", whole / 3600, whole / 60 % 60);
+}
+
 std::string progress_line(const std::string& label, std::size_t done, std::size_t total,
                           double elapsed_s, int width) {
     const double share = total == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(total);
     const std::string head = fmt::format("{} {}/{} ", label, done, total);
     std::string tail = fmt::format("{:3} %", static_cast<int>(share * 100.0));
     if (done > 0 && done < total) {
-        tail += fmt::format(", {} left", duration(elapsed_s * (1.0 / share - 1.0)));
+        tail += fmt::format(", {} left", duration_text(elapsed_s * (1.0 / share - 1.0)));
     }
     const int room = std::min(width - static_cast<int>(head.size() + tail.size()) - 3, 40);
     // A bar of fewer than eight columns shows too little.

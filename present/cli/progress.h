@@ -7,6 +7,9 @@
 
 namespace kilolux {
 
+/// "42 s", "3:05 min", "1:20 h"
+std::string duration_text(double seconds);
+
 /// One line of at most `width` columns: label, count, bar, per cent and the time left by the pace
 /// so far.
 std::string progress_line(const std::string& label, std::size_t done, std::size_t total,

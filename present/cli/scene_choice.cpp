@@ -74,20 +74,6 @@ void check_generated(const SharedOptions& options) {
     if (!options.load.variant.empty()) throw UsageError("--variant" + is_generated + "variants");
 }
 
-// A progress bar for the images of a file.
-class LoadBar {
- public:
-    explicit LoadBar(bool shown) : shown_(shown) {}
-    void tell(std::size_t done, std::size_t total) {
-        if (!bar_) bar_.emplace("loading images", total, shown_);
-        if (done > 0) bar_->advance();
-    }
-
- private:
-    bool shown_;
-    std::optional<Progress> bar_;
-};
-
 // Whether the command line has options of generated lights.
 bool asks_for_swarm(const SharedOptions& options) {
     LightOptions standard;
@@ -234,12 +220,14 @@ AnimatedScene open_animated_scene(const SharedOptions& options) {
         check_generated(options);
         return AnimatedScene(make_generated_scene(options.scene));
     }
-    LoadBar bar(!options.quiet);
+    std::optional<Progress> bar;
     LoadOptions load = options.load;
     load.time = options.time;
     load.max_memory_bytes = options.settings.max_memory_bytes;
-    return AnimatedScene(scene_file(options.scene), load,
-                         [&bar](std::size_t done, std::size_t total) { bar.tell(done, total); });
+    return AnimatedScene(scene_file(options.scene), load, [&](std::size_t done, std::size_t total) {
+        if (!bar) bar.emplace("loading images", total, !options.quiet);
+        if (done > 0) bar->advance();
+    });
 }
 
 std::string light_scene(SharedOptions& options, AnimatedScene& scene) {

@@ -5,7 +5,6 @@
 
 #include "host/base/error.h"
 #include "host/base/system/atomic_write.h"
-#include "present/cli/frame_summary.h"
 #include "present/cli/scene_choice.h"
 #include "present/cli/stats_json.h"
 #include "present/program.h"

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "host/base/formats/gbuffer_layout.h"
 #include "host/base/text.h"
 #include "present/cli/names.h"
 #include "present/cli/option_builder.h"

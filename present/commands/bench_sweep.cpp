@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <set>
 #include <span>
@@ -76,11 +75,8 @@ std::string estimate_of(const BenchRun& run, std::span<const SweepPoint> left,
     double ms = 0.0;
     for (const SweepPoint& point : left)
         ms += run.expected_frame_ms(point) * (frames.warm_up + frames.measured);
-    const auto seconds = static_cast<long long>(std::ceil(1e-3 * ms));
-    const std::string time = seconds < 60 ? fmt::format("{} s", seconds)
-                                          : fmt::format("{}:{:02} min", seconds / 60, seconds % 60);
-    return fmt::format("about {} for the frames of {} more points, by a measured frame", time,
-                       left.size());
+    return fmt::format("about {} for the frames of {} more points, by a measured frame",
+                       duration_text(1e-3 * ms), left.size());
 }
 
 // Calls `begin` after old rows are erased and before there are new ones.

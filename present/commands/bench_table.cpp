@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "host/base/error.h"
+#include "host/base/system/read_text.h"
 #include "host/base/text.h"
 #include "present/commands/bench.h"
 
@@ -13,25 +11,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-std::string contents_of(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in) throw Error(fmt::format("{}: cannot read", file.string()));
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
-// The fields that the points of a table share, beside the context: "1920x1080, packed".
-std::string shared_fields(const std::vector<BenchRow>& rows) {
-    std::vector<SweepPoint> points;
-    for (const BenchRow& row : rows) points.push_back(row.point);
-    const std::vector<std::string> varying = varying_fields(points);
-    std::string out;
-    for (const auto& [field, text] : fields_of(points.front())) {
-        const bool varies = std::find(varying.begin(), varying.end(), field) != varying.end();
-        if (!varies && text != "auto") out += fmt::format(", {} {}", field, text);
-    }
-    return out;
-}
 
 // The command in a line of its own, then the conditions.
 std::string context_text(const Json& document, const std::string& fields) {
@@ -56,8 +35,8 @@ std::string context_text(const Json& document, const std::string& fields) {
 
 std::string result_text(const fs::path& csv) {
     try {
-        const TextTable texts = parse_csv(contents_of(csv));
-        const Json document = Json::parse(contents_of(context_file(csv)));
+        const TextTable texts = parse_csv(read_text(csv));
+        const Json document = Json::parse(read_text(context_file(csv)));
         if (!is_bench_table(texts))
             return context_text(document, "") + to_markdown(table_of(texts));
         const std::vector<BenchRow> rows = bench_rows(texts);

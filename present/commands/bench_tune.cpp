@@ -2,7 +2,6 @@
 // The search for the fastest work sizes.
 #include <fmt/format.h>
 
-#include "host/base/error.h"
 #include "host/base/log.h"
 #include "host/base/system/interrupt.h"
 #include "host/measure/bench/tune.h"

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "host/base/error.h"
+#include "host/base/system/read_text.h"
 #include "present/cli/scene_choice.h"
 
 namespace kilolux {
@@ -63,11 +63,9 @@ CameraKey key_of(const Json& json, const std::string& where, double angle) {
 }  // namespace
 
 std::vector<CameraKey> read_camera_keys(const std::filesystem::path& file, double angle) {
-    std::ifstream in(file);
-    if (!in) throw Error(file.string() + ": cannot read");
     Json json;
     try {
-        json = Json::parse(in);
+        json = Json::parse(read_text(file));
     } catch (const Json::parse_error& error) {
         throw Error(fmt::format("{}: no JSON, at byte {}", file.string(), error.byte));
     }

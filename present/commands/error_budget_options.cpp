@@ -11,7 +11,6 @@
 #include "host/base/system/interrupt.h"
 #include "host/measure/report/tail_budget.h"
 #include "present/cli/conditions.h"
-#include "present/cli/frame_summary.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/progress.h"
 

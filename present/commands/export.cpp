@@ -8,8 +8,6 @@
 #include "host/base/text.h"
 #include "host/scene/export/export_scene.h"
 #include "host/scene/lights/light_generator.h"
-#include "host/scene/lights/light_ranges.h"
-#include "present/cli/frame_summary.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/options.h"
 #include "present/cli/scene_choice.h"

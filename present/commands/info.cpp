@@ -2,15 +2,12 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include <cstdio>
-
 #include "host/base/error.h"
 #include "host/measure/bench/feature_cost.h"
 #include "host/measure/roofline/independent_limits.h"
 #include "host/render/plan/kernel_choice.h"
 #include "host/render/renderer.h"
 #include "host/scene/gltf/files.h"
-#include "present/cli/frame_summary.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/options.h"
 #include "present/cli/scene_choice.h"

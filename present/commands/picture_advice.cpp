@@ -7,8 +7,6 @@
 #include <array>
 #include <cmath>
 
-#include "raster/forward_pass.h"
-
 namespace kilolux {
 namespace {
 

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
-#include <optional>
-#include <utility>
 
 #include "host/base/error.h"
 #include "host/base/log.h"
 #include "host/base/system/atomic_write.h"
-#include "host/base/system/interrupt.h"
 #include "host/base/system/memory.h"
 #include "host/render/whole_picture.h"
 #include "present/cli/frame_summary.h"

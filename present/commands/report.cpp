@@ -12,7 +12,6 @@
 #include "host/measure/report/error_sheets.h"
 #include "host/measure/report/run.h"
 #include "host/measure/report/tables.h"
-#include "present/cli/frame_summary.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/progress.h"
 #include "present/cli/scene_choice.h"

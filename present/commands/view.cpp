@@ -4,8 +4,6 @@
 
 #include "host/base/error.h"
 #include "host/base/log.h"
-#include "host/base/system/atomic_write.h"
-#include "present/cli/frame_summary.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/scene_choice.h"
 #include "present/image/image_file.h"

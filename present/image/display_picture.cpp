@@ -7,7 +7,6 @@
 
 #include "host/base/error.h"
 #include "host/base/formats/srgb.h"
-#include "host/base/suggest.h"
 #include "host/render/environment_light.h"
 #include "kernels/shared/tone_curve.h"
 
@@ -22,9 +21,6 @@ const char* ocio_config() {
 float srgb_of_linear(float linear) {
     return static_cast<float>(linear_to_srgb(std::clamp<double>(linear, 0.0, 1.0)));
 }
-
-// As kernels/picture/tonemap.cl: NaN and negative light become black, infinite light white.
-float displayable(float v) { return std::fmin(std::fmax(v, 0.0f), 1e9f); }
 
 // Gives the pixels of the backdrop's light its code.
 void show_backdrop(const Backdrop& backdrop, const std::vector<float>& light,

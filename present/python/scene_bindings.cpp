@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
-#include <optional>
-
 #include "host/base/error.h"
 #include "host/scene/lights/light_kinds.h"
 #include "present/python/arrays.h"

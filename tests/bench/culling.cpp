@@ -96,8 +96,9 @@ CullingMeasurement measure_culling(const Scene& scene, const RenderSettings& set
                                    const DeviceLimits& limits, int runs) {
     LightOptions options = settings.lights;
     options.count = light_count;
-    std::vector<SceneLight> lights = generate_lights(options, scene, time);
-    sort_by_place(lights);
+    const std::vector<SceneLight> generated = generate_lights(options, scene, time);
+    std::vector<SceneLight> lights;
+    for (const std::uint32_t light : order_by_place(generated)) lights.push_back(generated[light]);
     const LightRows rows = make_light_rows(lights, camera.position);
     const Gpu gpu = open_device(settings);
     CullingCase in{gpu, choose_tuning(describe(gpu.device), settings.kernels).tuning, {}, {}, {}};

@@ -232,7 +232,7 @@ TEST_F(Faults, KernelsThatDoNotBuild) {
         EXPECT_TRUE(has(result.err, part)) << part << "\n" << result.err;
     }
     fs::remove(elsewhere_ / "kernels/shading/shade.cl");
-    expect_refused(developer, "kernels/shading/shade.cl: cannot be read");
+    expect_refused(developer, "kernels/shading/shade.cl: cannot read");
     write_text(elsewhere_ / "kernels/shading/shade.cl", shade);
     write_text(elsewhere_ / "raster/shaders/coverage.frag", "#version 450\nthis is no GLSL\n");
     expect_refused(developer, "raster/shaders/coverage.frag", {"--geometry", "ids"});

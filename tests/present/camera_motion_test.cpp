@@ -39,7 +39,7 @@ TEST(CameraKeys, AreReadWithTheirAngles) {
 
 TEST(CameraKeys, MistakesAreOneLineThatNamesTheKey) {
     EXPECT_EQ(message_of<Error>([] { read_camera_keys("no/such.json", 45.0); }),
-              "no/such.json: cannot read");
+              "no/such.json: cannot read: No such file or directory");
     EXPECT_EQ(keys_error("[{\"time\": 0,"), "no JSON, at byte 13");
     EXPECT_EQ(keys_error("{}"), "must be a list of at least one key");
     EXPECT_EQ(keys_error("[]"), "must be a list of at least one key");

@@ -15,8 +15,8 @@ TEST(OptionValues, NumbersKeepTheirRange) {
     EXPECT_EQ(parse_number("--time", "+2"), 2.0);
     EXPECT_EQ(parse_number("--bloom", "1", {0.0, 1.0}), 1.0);
     EXPECT_EQ(parse_number("--bloom", "0", {0.0, 1.0}), 0.0);
-    EXPECT_EQ(parse_number_or_auto("--light-radius", "auto", {0.0, 10.0, true}), 0.0);
-    EXPECT_EQ(parse_number_or_auto("--light-radius", "2.5", {0.0, 10.0, true}), 2.5);
+    EXPECT_EQ(parse_number("--light-radius", "auto", {0.0, 10.0, true}, true), 0.0);
+    EXPECT_EQ(parse_number("--light-radius", "2.5", {0.0, 10.0, true}, true), 2.5);
 }
 
 TEST(OptionValues, BadNumbersNameOptionValueAndRange) {
@@ -36,7 +36,7 @@ TEST(OptionValues, BadNumbersNameOptionValueAndRange) {
     EXPECT_EQ(message_of<UsageError>([] { parse_number("--x", "-1", {0.0}); }),
               "--x: '-1' is not a finite number of at least 0");
     const NumberRange above_zero{0.0, NumberRange{}.max, true};
-    EXPECT_EQ(message_of<UsageError>([&] { parse_number_or_auto("--r", "0", above_zero); }),
+    EXPECT_EQ(message_of<UsageError>([&] { parse_number("--r", "0", above_zero, true); }),
               "--r: '0' is not 'auto' or a finite number above 0");
 }
 

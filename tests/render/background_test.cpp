@@ -118,7 +118,7 @@ TEST(Background, IsSeenThroughWhatBlends) {
 std::shared_ptr<const Environment> shown_color(const glm::u8vec3& code) {
     const auto table = srgb_to_linear_table();
     return std::make_shared<const Environment>(
-        Environment{1, 1, {{table[code.x], table[code.y], table[code.z]}}, true});
+        Environment{1, 1, {glm::dvec3(table[code.x], table[code.y], table[code.z])}, true});
 }
 
 // At the corner, where no surface is.

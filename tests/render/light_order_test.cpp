@@ -26,9 +26,10 @@ std::vector<SceneLight> random_lights(std::size_t count, float range = 2.0f) {
     return lights;
 }
 
-std::vector<SceneLight> sorted(std::vector<SceneLight> lights) {
-    sort_by_place(lights);
-    return lights;
+std::vector<SceneLight> sorted(const std::vector<SceneLight>& lights) {
+    std::vector<SceneLight> out;
+    for (const std::uint32_t light : order_by_place(lights)) out.push_back(lights[light]);
+    return out;
 }
 
 bool same_places(const std::vector<SceneLight>& a, const std::vector<SceneLight>& b) {

@@ -51,6 +51,8 @@ TEST(LightTreePictures, ErrWithinTheirBound) {
     for (const Shading shading : {Shading::lambert, Shading::blinn_phong, Shading::pbr}) {
         for (const float share : {1.0f, 10.0f}) {
             RenderSettings settings = tree_settings(share);
+            settings.width = 96;
+            settings.height = 54;
             settings.shading = shading;
             const TailAgreement found = compare(scene, settings);
             EXPECT_EQ(found.below, 0) << share;

@@ -29,10 +29,10 @@ double linear_to_srgb(double linear) {
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
 }
 
-std::array<float, 256> srgb_to_linear_table() {
-    std::array<float, 256> table{};
+std::array<double, 256> srgb_to_linear_table() {
+    std::array<double, 256> table{};
     for (std::size_t code = 0; code < table.size(); ++code) {
-        table[code] = static_cast<float>(srgb_to_linear(static_cast<double>(code) / 255.0));
+        table[code] = srgb_to_linear(static_cast<double>(code) / 255.0);
     }
     return table;
 }

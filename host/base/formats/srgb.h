@@ -17,8 +17,8 @@ inline float displayable(double light) {
     return light > 0.0 ? static_cast<float>(light < 1e9 ? light : 1e9) : 0.0f;
 }
 
-/// Linear value of each 8-bit sRGB code, rounded from double.
-std::array<float, 256> srgb_to_linear_table();
+/// Linear value of each 8-bit sRGB code.
+std::array<double, 256> srgb_to_linear_table();
 
 /// Tables by which tonemap.cl rounds linear light to the nearest sRGB code; see
 /// kernels/shared/tone_curve.h.

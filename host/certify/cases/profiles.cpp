@@ -8,7 +8,6 @@
 #include "host/certify/scene_case.h"
 #include "host/measure/reference/decoded_samples.h"
 #include "host/render/renderer.h"
-#include "host/scene/framing.h"
 #include "host/scene/generated/scenes.h"
 
 namespace kilolux {

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -15,6 +14,7 @@
 #include "host/base/hash.h"
 #include "host/base/log.h"
 #include "host/base/system/atomic_write.h"
+#include "host/base/text.h"
 #include "host/base/version.h"
 
 namespace kilolux {
@@ -92,11 +92,9 @@ std::optional<CacheValues> parse_values(std::string_view text) {
         text.remove_prefix(std::min(line.size() + 1, text.size()));
         const std::size_t space = line.find(' ');
         if (space == std::string_view::npos || space == 0) return std::nullopt;
-        double value = 0.0;
-        const char* last = line.data() + line.size();
-        const auto [end, error] = std::from_chars(line.data() + space + 1, last, value);
-        if (error != std::errc() || end != last || !std::isfinite(value)) return std::nullopt;
-        values.emplace(line.substr(0, space), value);
+        const auto value = number_of<double>(line.substr(space + 1));
+        if (!value || !std::isfinite(*value)) return std::nullopt;
+        values.emplace(line.substr(0, space), *value);
     }
     return values;
 }

@@ -57,16 +57,6 @@ bool finish(Plot& plot) {
     return !plot.series.empty();
 }
 
-// Scene, device, and the fields that all points share: resolution, lights, renderer.
-std::string full_subtitle(const std::string& subtitle, const std::vector<BenchRow>& rows) {
-    const std::vector<std::string> varying = varying_fields(rows);
-    std::string out = subtitle;
-    for (const auto& [field, text] : fields_of(rows.front().point)) {
-        if (!contains(varying, field) && text != "auto") out += fmt::format(", {} {}", field, text);
-    }
-    return out;
-}
-
 // The rows that lie on curves along a field, and the fields in which those curves differ.
 struct Curves {
     std::vector<BenchRow> rows;
@@ -139,7 +129,7 @@ std::vector<NamedPlot> bench_plots(const std::vector<BenchRow>& rows, const std:
     std::vector<NamedPlot> plots;
     const auto add = [&](const std::string& stem, Plot plot, const Curves& curves) {
         if (!finish(plot)) return;
-        plot.subtitle = full_subtitle(subtitle, curves.rows);
+        plot.subtitle = subtitle + shared_fields(curves.rows);
         plots.push_back({stem, std::move(plot)});
     };
     for (const PlotAxis& axis : kPlotAxes) {

@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <fstream>
 #include <iterator>
 
 #include "host/base/error.h"
 #include "host/base/formats/gbuffer_layout.h"
 #include "host/base/system/atomic_write.h"
+#include "host/base/system/read_text.h"
+#include "host/base/text.h"
 #include "host/measure/roofline/stages.h"
 
 namespace kilolux {
@@ -19,10 +19,9 @@ namespace {
 void read(std::string& text, const std::string& field) { text = field; }
 template <typename Number>
 void read(Number& number, const std::string& field) {
-    const char* const end = field.data() + field.size();
-    const auto result = std::from_chars(field.data(), end, number);
-    if (result.ec != std::errc() || result.ptr != end)
-        throw Error(fmt::format("'{}', must be a number", field));
+    const auto value = number_of<Number>(field);
+    if (!value) throw Error(fmt::format("'{}', must be a number", field));
+    number = *value;
 }
 
 struct CsvColumn {
@@ -184,6 +183,16 @@ std::vector<BenchRow> bench_rows(const TextTable& csv) {
     return rows;
 }
 
+std::string shared_fields(const std::vector<BenchRow>& rows) {
+    const std::vector<std::string> varying = varying_fields(rows);
+    std::string out;
+    for (const auto& [field, text] : fields_of(rows.front().point)) {
+        const bool varies = std::ranges::count(varying, field) > 0;
+        if (!varies && text != "auto") out += fmt::format(", {} {}", field, text);
+    }
+    return out;
+}
+
 std::vector<std::string> varying_fields(const std::vector<BenchRow>& rows) {
     std::vector<SweepPoint> points;
     for (const BenchRow& row : rows) points.push_back(row.point);
@@ -192,9 +201,7 @@ std::vector<std::string> varying_fields(const std::vector<BenchRow>& rows) {
 
 BenchLog::BenchLog(std::filesystem::path file, bool resume) : file_(std::move(file)) {
     if (!resume || !std::filesystem::exists(file_)) return;
-    std::ifstream in(file_, std::ios::binary);
-    if (!in) throw Error(fmt::format("{}: cannot read", file_.string()));
-    std::string text(std::istreambuf_iterator<char>(in), {});
+    std::string text = read_text(file_);
     // A copied file may end within a line or a point.
     text.erase(text.rfind('\n') + 1);
     try {

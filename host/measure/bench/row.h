@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <functional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "host/measure/bench/sweep.h"
@@ -58,8 +57,10 @@ bool is_bench_table(const TextTable& csv);
 /// anything else.
 std::vector<BenchRow> bench_rows(const TextTable& csv);
 
-/// Names of the fields in which the rows' points differ.
+/// Names of the fields in which the rows' points differ, and the fields that they share:
+/// ", resolution 1920x1080, lights 5000".
 std::vector<std::string> varying_fields(const std::vector<BenchRow>& rows);
+std::string shared_fields(const std::vector<BenchRow>& rows);
 
 /// The CSV of a sweep. It is written whole after every point, so that an interruption loses one
 /// point at most.

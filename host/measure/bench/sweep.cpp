@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 
 #include "host/base/error.h"
 #include "host/base/formats/gbuffer_layout.h"

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
 #include "host/base/error.h"
+#include "host/base/text.h"
 
 namespace kilolux {
 namespace {
@@ -99,12 +99,9 @@ std::vector<std::string> take_csv_line(std::string_view& csv) {
 }
 
 Cell cell_of_text(const std::string& text) {
-    const char* const end = text.data() + text.size();
-    std::int64_t integer = 0;
-    double number = 0.0;
     if (text.empty()) return {};
-    if (std::from_chars(text.data(), end, integer).ptr == end) return integer;
-    if (std::from_chars(text.data(), end, number).ptr == end) return number;
+    if (const auto integer = number_of<std::int64_t>(text)) return *integer;
+    if (const auto number = number_of<double>(text)) return *number;
     return text;
 }
 

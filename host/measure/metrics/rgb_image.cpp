@@ -3,8 +3,6 @@
 
 #include <fmt/core.h>
 
-#include <array>
-
 #include "host/base/error.h"
 #include "host/base/formats/srgb.h"
 
@@ -34,10 +32,7 @@ RgbImage rgb_image_of(int width, int height, std::span<const float> rgb) {
 }
 
 RgbImage linear_from_display(const DisplayView& display) {
-    std::array<double, 256> linear{};
-    for (std::size_t code = 0; code < linear.size(); ++code) {
-        linear[code] = srgb_to_linear(static_cast<double>(code) / 255.0);
-    }
+    const auto linear = srgb_to_linear_table();
     RgbImage image = make_rgb_image(display.width, display.height);
     require_values("display picture", image, 4, display.rgba.size());
     for (std::size_t i = 0; i < image.rgb.size(); ++i) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/measure/reference/bvh.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -22,7 +22,8 @@ const char* why_dark(const LightContribution& light, bool in_reach, bool seen, b
 }  // namespace
 
 std::vector<LightContribution> light_contributions(const PixelProbe& probe,
-                                                   const ReferenceOptions& model) {
+                                                   ReferenceOptions model) {
+    model.ambient = 0.0;
     SurfaceSamples surfaces = make_surface_samples(1, 1);
     SurfaceSample& surface = surfaces.at(0, 0);
     surface = surface_sample([&](std::size_t plane) { return probe.surface[plane]; },

@@ -20,7 +20,6 @@ struct LightContribution {
 
 /// One per light of a probed pixel's list, the brightest first. `model`: shading, projection and
 /// light_d_min count.
-std::vector<LightContribution> light_contributions(const PixelProbe& probe,
-                                                   const ReferenceOptions& model);
+std::vector<LightContribution> light_contributions(const PixelProbe& probe, ReferenceOptions model);
 
 }  // namespace kilolux

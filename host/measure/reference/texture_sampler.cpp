@@ -11,10 +11,7 @@
 namespace kilolux {
 namespace {
 
-int floor_mod(int a, int n) {
-    const int r = a % n;
-    return r < 0 ? r + n : r;
-}
+int floor_mod(int a, int n) { return (a % n + n) % n; }
 
 // A texel index wrapped into the image (OpenGL 4.5, 8.14.2, table 8.20).
 int wrapped(int i, int size, Wrap wrap) {
@@ -44,18 +41,6 @@ TexelCoordinate split(double coordinate) {
 }
 
 std::size_t slot(TextureEncoding encoding) { return static_cast<std::size_t>(encoding); }
-
-// Linear values of the sRGB codes.
-const std::array<double, 256>& linear_from_code() {
-    static const auto table = [] {
-        std::array<double, 256> out{};
-        for (std::size_t i = 0; i < out.size(); ++i) {
-            out[i] = srgb_to_linear(static_cast<double>(i) / 255.0);
-        }
-        return out;
-    }();
-    return table;
-}
 
 glm::dvec4 nearest(const MipLevel& level, const Sampler& sampler, const glm::dvec2& uv) {
     return level.texel(wrapped(split(uv.x * level.width).index, level.width, sampler.wrap_s),
@@ -124,7 +109,7 @@ glm::dvec4 MipLevel::texel(int x, int y) const {
     if (encoding == TextureEncoding::linear) {
         return {codes[0] / 255.0, codes[1] / 255.0, codes[2] / 255.0, alpha};
     }
-    const auto& linear = linear_from_code();
+    static const auto linear = srgb_to_linear_table();
     return {linear[codes[0]], linear[codes[1]], linear[codes[2]], alpha};
 }
 

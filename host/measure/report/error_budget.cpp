@@ -3,8 +3,6 @@
 
 #include <fmt/core.h>
 
-#include <cmath>
-
 #include "host/base/error.h"
 #include "host/base/hash.h"
 #include "host/gpu/tuning/device_cache.h"

@@ -48,11 +48,4 @@ std::vector<std::uint32_t> order_by_place(std::span<const SceneLight> lights) {
     return order;
 }
 
-void sort_by_place(std::vector<SceneLight>& lights) {
-    std::vector<SceneLight> sorted;
-    sorted.reserve(lights.size());
-    for (const std::uint32_t light : order_by_place(lights)) sorted.push_back(lights[light]);
-    lights = std::move(sorted);
-}
-
 }  // namespace kilolux

@@ -15,7 +15,4 @@ namespace kilolux {
 /// places keep their order. Directional lights and lights that are not finite come last.
 std::vector<std::uint32_t> order_by_place(std::span<const SceneLight> lights);
 
-/// Puts lights into that order.
-void sort_by_place(std::vector<SceneLight>& lights);
-
 }  // namespace kilolux

@@ -3,11 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 
 #include "host/base/error.h"
+#include "host/base/text.h"
 #include "host/scene/lights/photometric_web.h"
 
 namespace kilolux {
@@ -49,15 +49,12 @@ class IesText {
         skip_gaps();
         if (at_end()) fail("the file ends where {} should be", what);
         const std::string_view word = next_word();
-        const std::string_view digits = word.front() == '+' ? word.substr(1) : word;
-        double value = 0.0;
-        const char* end = digits.data() + digits.size();
-        const auto [stop, error] = std::from_chars(digits.data(), end, value);
-        if (error != std::errc() || stop != end || !std::isfinite(value)) {
+        const auto value = number_of<double>(word.front() == '+' ? word.substr(1) : word);
+        if (!value || !std::isfinite(*value)) {
             fail("{} is '{}', must be a number", what, shown(word));
         }
         drop(word.size());
-        return value;
+        return *value;
     }
 
     double positive(std::string_view what) {

@@ -2,7 +2,6 @@
 #include "host/scene/rows/texture_table.h"
 
 #include <fmt/format.h>
-#include <string>
 
 #include "host/base/error.h"
 #include "host/base/formats/mips.h"

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <bit>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -15,6 +14,7 @@
 #include "host/base/system/interrupt.h"
 #include "host/base/system/temporary_folder.h"
 #include "host/base/text.h"
+#include "host/certify/lighting_case.h"
 #include "host/measure/bench/run.h"
 #include "host/render/renderer.h"
 #include "present/cli/names.h"
@@ -54,14 +54,6 @@ SharedOptions options_of(const Picture& picture, const cl::Device& device) {
     return options;
 }
 
-std::uint64_t different_values(const std::vector<float>& a, const std::vector<float>& b) {
-    if (a.size() != b.size()) return std::max(a.size(), b.size());
-    std::uint64_t count = 0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        count += std::bit_cast<uint>(a[i]) != std::bit_cast<uint>(b[i]);
-    return count;
-}
-
 Json equality(const cl::Device& device, const Step& step) {
     constexpr Picture kPictures[] = {{"atrium", 320, 180, 500, Shading::lambert},
                                      {"atrium", 320, 180, 500, Shading::blinn_phong},
@@ -79,7 +71,7 @@ Json equality(const cl::Device& device, const Step& step) {
         };
         const std::vector<float> listed = radiance(RendererKind::deferred);
         const std::vector<float> all = radiance(RendererKind::deferred_all);
-        const std::uint64_t different = different_values(listed, all);
+        const auto different = static_cast<std::uint64_t>(different_bits(listed, all).value);
         const auto lit = std::ranges::count_if(all, [](float value) { return value > 0.0f; });
         if (different > 0 || lit == 0) out["passed"] = false;
         out["pictures"].push_back({{"scene", picture.scene},

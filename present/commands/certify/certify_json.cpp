@@ -2,11 +2,11 @@
 // Certificates as JSON, and back.
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 
 #include "host/base/error.h"
-#include "present/commands/bench.h"
+#include "host/base/system/read_text.h"
+#include "present/cli/conditions.h"
 #include "present/commands/certify/certify.h"
 
 namespace kilolux {
@@ -69,10 +69,9 @@ Json certificate_json(const Json& device, const Certificate& made) {
 }
 
 Json read_certificate(const std::string& file) {
-    std::ifstream in(file);
-    if (!in) throw Error(file + ": cannot read");
+    const std::string text = read_text(file);
     try {
-        Json json = Json::parse(in);
+        Json json = Json::parse(text);
         rows_of_json(json);
         json.at("device").at("name");
         json.at("program");

@@ -5,7 +5,6 @@
 
 #include "host/base/error.h"
 #include "host/base/log.h"
-#include "host/base/system/interrupt.h"
 
 namespace kilolux {
 

@@ -11,12 +11,6 @@ namespace {
 
 constexpr double kRestSeconds = 0.25;  // without a change before a picture is made in full
 
-bool same_camera(const Camera& a, const Camera& b) {
-    return a.position == b.position && a.world_from_view == b.world_from_view &&
-           a.y_fov == b.y_fov && a.orthographic == b.orthographic && a.y_extent == b.y_extent &&
-           a.z_near == b.z_near && a.z_far == b.z_far;
-}
-
 bool has_all_samples(const PictureRequest& request) {
     return request.samples == 0 || request.samples >= request.settings.samples;
 }
@@ -33,8 +27,7 @@ bool same_content(const PictureRequest& a, const PictureRequest& b) {
     resized.width = b.settings.width;
     resized.height = b.settings.height;
     resized.samples = b.settings.samples;
-    return resized == b.settings && a.rig == b.rig && a.time == b.time &&
-           same_camera(a.camera, b.camera);
+    return resized == b.settings && a.rig == b.rig && a.time == b.time && a.camera == b.camera;
 }
 
 bool same_request(const PictureRequest& a, const PictureRequest& b) {

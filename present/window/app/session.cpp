@@ -19,11 +19,6 @@ constexpr double kBusySeconds = 0.1;   // while a thread works; its end wakes th
 constexpr std::chrono::milliseconds kStopPatience(200);
 constexpr int kSmallestKept = 64;  // [pixel] of the window's edges, from run to run
 
-std::string gl_text(GLenum name) {
-    const GLubyte* text = glGetString(name);
-    return text == nullptr ? "" : reinterpret_cast<const char*>(text);
-}
-
 }  // namespace
 
 ViewSession::ViewSession(AnimatedScene& scene, SessionOptions options, StateFile& file,
@@ -41,7 +36,7 @@ ViewSession::ViewSession(AnimatedScene& scene, SessionOptions options, StateFile
       facts_{.scene = scene_,
              .has_unranged_lights = std::ranges::any_of(scene_.lights, lacks_range),
              .triangles = triangle_count(scene_),
-             .opengl = gl_text(GL_RENDERER) + ", " + gl_text(GL_VERSION),
+             .opengl = gl_string(GL_RENDERER) + ", " + gl_string(GL_VERSION),
              .error = error_} {
     window_.on_event([this](const InputEvent& event) { events_.post(event); });
     worker_ = std::make_unique<RenderWorker>(

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "host/picture/views.h"
 #include "present/window/app/session.h"
 
 namespace kilolux {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "host/base/error.h"
+#include "host/measure/reference/decoded_samples.h"
 
 namespace kilolux {
 namespace {
@@ -17,11 +18,8 @@ std::optional<ProbedPixel> probe_pixel(Renderer& renderer, const PictureRequest&
     // The renderer may have made another picture since, e.g. for a measurement of errors.
     if (s.width != asked.settings.width || s.height != asked.settings.height) return std::nullopt;
     ProbedPixel out{at.x, at.y, s.width, s.height, asked.camera, renderer.probe(at.x, at.y), {}};
-    const KernelFeatures& kernels = renderer.plan().kernels;
-    out.shares = light_contributions(out.probe, {.shading = shading_of(kernels),
-                                                 .orthographic = asked.camera.orthographic,
-                                                 .light_d_min = double{kernels.light_d_min},
-                                                 .random_ranges = double{kernels.random_ranges}});
+    out.shares =
+        light_contributions(out.probe, reference_options(renderer.plan().kernels, s, asked.camera));
     return out;
 }
 

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/base/system/interrupt.h"
 #include "present/image/comparison.h"
 #include "present/window/app/picture_queue.h"
 

@@ -2,10 +2,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <algorithm>
 #include <cmath>
 
-#include "host/picture/views.h"
 #include "host/scene/lights/light_generator.h"
 #include "present/cli/names.h"
 #include "present/window/panel/panel.h"

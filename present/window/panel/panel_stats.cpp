@@ -88,25 +88,14 @@ void error_table(const FrameError& error) {
         ImGui::TableNextColumn();
         ImGui::TextDisabled("%s", text);
     }
-    const auto cell = [](double value) {
-        ImGui::TableNextColumn();
-        if (value == 0.0) {
-            ImGui::TextUnformatted("0");
-        } else {
-            ImGui::Text("%.2e", value);
-        }
+    const auto text = [](double value) {
+        return value == 0.0 ? "0" : fmt::format("{:.2e}", value);
     };
     for (const ErrorLine& line : kErrorLines) {
         ImGui::TableNextRow();
-        ImGui::TableNextColumn();
-        ImGui::TextUnformatted(line.name);
-        if (error.kernels) {
-            cell(line.value(*error.kernels));
-        } else {
-            ImGui::TableNextColumn();
-            ImGui::TextUnformatted("-");
-        }
-        cell(line.value(error.whole));
+        cell(line.name);
+        cell(error.kernels ? text(line.value(*error.kernels)) : "-");
+        cell(text(line.value(error.whole)));
     }
     ImGui::EndTable();
     ImGui::TextDisabled("%d x %d pixels, %.1f lights reach one", error.width, error.height,
@@ -138,9 +127,7 @@ void count_lines(const FrameStats& s) {
 
 void wrapped(const char* name, const std::string& text) {
     ImGui::TextDisabled("%s", name);
-    ImGui::PushTextWrapPos();
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopTextWrapPos();
+    ImGui::TextWrapped("%s", text.c_str());
 }
 
 }  // namespace
@@ -148,9 +135,7 @@ void wrapped(const char* name, const std::string& text) {
 void fact_line(const char* name, const std::string& value) {
     ImGui::TextDisabled("%s", name);
     ImGui::SameLine(ImGui::GetFontSize() * 6.6f);
-    ImGui::PushTextWrapPos();
-    ImGui::TextUnformatted(value.c_str());
-    ImGui::PopTextWrapPos();
+    ImGui::TextWrapped("%s", value.c_str());
 }
 
 std::string short_count(std::uint64_t value) {

@@ -9,7 +9,6 @@
 
 #include "host/base/error.h"
 #include "host/base/suggest.h"
-#include "present/cli/option_values.h"
 
 namespace kilolux {
 namespace {

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace kilolux {
+
+/// A file's bytes. Throws Error "<file>: cannot read: <the system's reason>".
+std::string read_text(const std::filesystem::path& file);
+
+}  // namespace kilolux
