@@ -164,7 +164,9 @@ void visit_device(const SettingVisitor& f, RenderSettings& s) {
     };
     OptionBuilder(f, "Device")
         .text({"--device", "NAME-OR-INDEX", "best",
-               "OpenCL device; also all, or indices by commas: render's frames or rows are shared"},
+               "OpenCL device; also all, or indices by commas: they share render's frames or rows, "
+               "and "
+               "the errors of report's settings, whose times are those of the first"},
               s.device)
         .rest()
         .value({"--max-memory", "SIZE|auto", "",

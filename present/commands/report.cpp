@@ -18,6 +18,8 @@
 #include "present/cli/stats_json.h"
 #include "present/commands/bench.h"
 #include "present/commands/error_budget_options.h"
+#include "present/commands/picture_tasks.h"
+#include "present/commands/report_devices.h"
 #include "present/image/image_file.h"
 #include "present/program.h"
 
@@ -36,6 +38,8 @@ struct ReportOptions {
     bool json = false;
     bool quick = false;
     bool check_default = false;
+    bool mixed_devices = false;
+    std::vector<std::string> devices;  // by index, where there are several
     BudgetOptions budget;
 };
 
@@ -43,7 +47,8 @@ struct Report {
     nlohmann::ordered_json context;
     std::string caption;  // scene, lights, sizes, device, for pictures
     std::vector<ReportRow> rows;
-    bool plots = false;  // are written
+    std::vector<ReportShare> shares;  // of several devices
+    bool plots = false;               // are written
 };
 
 BenchFrames report_frames(const ReportOptions& options) {
@@ -64,15 +69,23 @@ std::vector<ReportSetting> chosen_settings(const ReportOptions& options, const S
     return settings;
 }
 
-std::vector<ReportRow> measure(const ReportOptions& options, ReportRun& run,
-                               const std::vector<ReportSetting>& settings) {
+void measure(const ReportOptions& options, const ReportView& view, ReportRun& run, Report& report) {
+    const std::vector<ReportSetting> settings = chosen_settings(options, view.scene);
     Progress progress("measuring", ReportRun::steps(settings.size()), !options.shared.quiet);
+    const auto advance = [&progress] { progress.advance(); };
     run.on_step(check_interrupt);
-    run.on_progress([&progress] { progress.advance(); });
-    std::vector<ReportRow> rows = run.measure(settings, report_frames(options));
+    run.on_progress(advance);
+    const BenchFrames frames = report_frames(options);
+    if (options.devices.empty()) {
+        report.rows = run.measure(settings, frames);
+    } else {
+        auto [rows, shares] = measure_on(options.devices, run, {view, settings, frames, advance});
+        report.rows = std::move(rows);
+        report.shares = std::move(shares);
+        report.context["devices"] = shares_json(report.shares);
+    }
     run.on_step([] {});
     run.on_progress([] {});
-    return rows;
 }
 
 std::string caption_of(const SharedOptions& shared, const Scene& scene, const DeviceInfo& device,
@@ -102,14 +115,15 @@ void write_canvas(const fs::path& file, Canvas canvas) {
 
 void write_errors(const fs::path& folder, const Report& report, const ReportRow& row,
                   ReportRun& run) {
-    const auto references = run.references().all(run.at_error_size(row.setting.settings));
+    const auto references = run.references().all(run.at_error_size(row));
     const std::string file = file_stem(row.setting.name) + ".png";
     write_canvas(folder / "errors" / file, error_map_sheet(row, references, report.caption));
 }
 
 // The summary with its notes: report.md.
 std::string report_text(const Report& report) {
-    return to_markdown(report_summary(report.rows), 3) + "\n" + report_notes(report.rows);
+    return to_markdown(report_summary(report.rows), 3) + "\n" + report_notes(report.rows) +
+           share_lines(report.shares);
 }
 
 // The document of --json and report.json.
@@ -178,7 +192,18 @@ void apply_axes(const CLI::App& command, ReportOptions& options) {
     s.shadows = Shadows::exact;
 }
 
+// Leaves the first of several devices in the settings.
+void take_devices(ReportOptions& options) {
+    std::string& device = options.shared.settings.device;
+    std::vector<std::string> devices = devices_of(device, options.mixed_devices);
+    device = devices.front();
+    if (devices.size() > 1) options.devices = std::move(devices);
+    refuse_if(options.mixed_devices && options.budget.max_error,
+              "--max-error with --mixed-devices: a choice is kept for one kind of device");
+}
+
 void run_report(ReportOptions& options, const CLI::App& command) {
+    take_devices(options);
     apply_quick(command, options);
     apply_axes(command, options);
     begin_command(options.shared);
@@ -198,11 +223,13 @@ void run_report(ReportOptions& options, const CLI::App& command) {
     ReportRun run(view, shared.settings, error_limits(options.budget));
     report.context["error_resolution"] = run.error_size();
     report.caption = caption_of(shared, scene, device, run);
-    report.rows = measure(options, run, chosen_settings(options, scene));
+    measure(options, view, run, report);
     print_result(options.json, report_json(report), report_text(report));
     if (!options.output.empty()) write_report(options, report, run);
     choose_from_rows(shared, options.budget, view, report.rows);
     check_default(options, report.rows);
+    const std::string failures = failures_of(report.shares);
+    if (!failures.empty()) throw Error(failures + "; the other devices measured the rest");
 }
 
 void add_report_options(CLI::App& command, ReportOptions& options) {
@@ -222,6 +249,10 @@ void add_report_options(CLI::App& command, ReportOptions& options) {
               "Exit with 3 where another setting is as good in time and error and better in one")
         .text({"--output,-o", "DIR", "", "Folder for CSV, JSON, Markdown, plots and pictures"},
               options.output)
+        .flag(
+            "--mixed-devices", options.mixed_devices,
+            "With several devices: they may differ, and so may the bits of the errors; the report "
+            "notes which one measured each setting")
         .flag("--json", options.json, "JSON instead of a table on standard output");
     add_options(command, options.budget);
 }
@@ -230,6 +261,7 @@ constexpr const char* kReportExamples =
     "  kilolux report -o results\n"
     "  kilolux report --quick\n"
     "  kilolux report town.glb --lights 0 -o results\n"
+    "  kilolux report --device all -o results\n"
     "  kilolux report --axes gbuffer,grid --resolution 1280,720 -o results";
 
 }  // namespace

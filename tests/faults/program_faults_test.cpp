@@ -5,6 +5,7 @@
 #include <sys/mount.h>
 
 #include <chrono>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
 
@@ -109,6 +110,42 @@ TEST_F(Faults, ADeviceOfTwoThatMakeAPictureIsLeftOut) {
         ++left_out;
         EXPECT_TRUE(has(result.err, "; the other devices made the rest")) << result.err;
         EXPECT_EQ(text_of_file(elsewhere_ / "b.png"), text_of_file(elsewhere_ / "a.png"));
+    }
+    EXPECT_GT(left_out, 0);
+}
+
+// The same of a report: others measure the settings again, with the same errors, and all times.
+TEST_F(Faults, ADeviceOfTwoThatMeasureAReportIsLeftOut) {
+    const auto report = [&](const std::string& fault) {
+        Words words = with_environment({"OPENCL_LAYERS=" KILOLUX_FAULT_LAYER,
+                                        "KILOLUX_FAULT=" + fault, "POCL_DEVICES=pthread pthread"});
+        const Words more = {
+            program_file(), "report", "plain",    "--lights", "50",        "--quick",
+            "--resolution", "48,32",  "--frames", "1",        "--warm-up", "0",
+            "--axes",       "lanes",  "--device", "0,1",      "--json"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_child(words);
+    };
+    const auto errors = [](const ChildResult& result) {
+        std::vector<nlohmann::json> out;
+        for (const auto& row : nlohmann::json::parse(result.out).at("rows"))
+            out.push_back(
+                {row.at("R1 rmse"), row.at("R2 rmse"), row.at("R3 flip mean"), row.at("k*")});
+        return out;
+    };
+    const ChildResult whole = report("0:0");
+    ASSERT_EQ(whole.code, 0) << whole.err;
+    int left_out = 0;
+    for (const int call : {300, 700, 1800}) {
+        const ChildResult result = report(std::to_string(call) + ":-5");
+        if (result.code == 0) continue;  // there are fewer calls
+        SCOPED_TRACE(call);
+        EXPECT_EQ(result.code, 1) << result.err;
+        EXPECT_TRUE(has(result.err, "CL_OUT_OF_RESOURCES")) << result.err;
+        if (!has(result.err, " is left out: ")) continue;  // of the first device's beginning
+        ++left_out;
+        EXPECT_TRUE(has(result.err, "; the other devices measured the rest")) << result.err;
+        EXPECT_EQ(errors(result), errors(whole));
     }
     EXPECT_GT(left_out, 0);
 }

@@ -201,6 +201,37 @@ TEST(ReportRun, MeasuresWhatEachSettingCostsAndErrs) {
     expect_error_maps();
 }
 
+// The time of a setting too slow for whole frames is that of its small frame alone.
+TEST(ReportRun, SlowSettingsAreTimedAgainAfterOthersWorkedBesideThem) {
+    const Scene scene = make_generated_scene("grid");
+    const RenderSettings large = small_settings(1 << 15, 1 << 15, 20);
+    ReportRun run({scene, first_camera(scene), 0.0}, large, {.width = 48});
+    const ReportSetting asked{SettingAxis::none, "default", "", large};
+    ComparedRow compared = run.compare(asked, run.device());
+    ASSERT_TRUE(compared.timing.scaled);
+    constexpr double kDisturbed = 1e9;
+    compared.timing.frames = {kDisturbed};
+    run.estimate_again(compared);
+    ASSERT_EQ(compared.timing.frames.size(), 1u);
+    EXPECT_LT(compared.timing.frames.front(), kDisturbed);
+    EXPECT_FALSE(compared.timing.stages.empty());
+}
+
+// Other drivers may draw other surfaces.
+TEST(ReportReferences, AreMadeOnceForEachKindOfDevice) {
+    const Scene scene = make_generated_scene("grid");
+    ReportRun run({scene, first_camera(scene), 0.0}, small_settings(32, 18, 20));
+    const RenderSettings settings = run.at_error_size(small_settings(32, 18, 20));
+    const ReportDevice& device = run.device();
+    Gpu unlike = *device.gpu;
+    unlike.info.name += " II";
+    const ReportDevice alike{std::make_shared<const Gpu>(*device.gpu), shared_scene(scene)};
+    const ReportDevice other{std::make_shared<const Gpu>(unlike), shared_scene(scene)};
+    const ComparedReference* first = &run.references().kernels(settings, device);
+    EXPECT_EQ(&run.references().kernels(settings, alike), first);
+    EXPECT_NE(&run.references().kernels(settings, other), first);
+}
+
 TEST(ReportRun, ALargerFrameTellsHowTimeGrowsWithPixels) {
     EXPECT_DOUBLE_EQ(extrapolated_ms({100.0, 5.0}, {400.0, 8.0}, 1000.0), 14.0);
     EXPECT_DOUBLE_EQ(extrapolated_ms({100.0, 7.0}, {400.0, 7.0}, 1000.0), 7.0);

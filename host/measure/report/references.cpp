@@ -30,9 +30,10 @@ RenderSettings decoded_settings(RenderSettings settings) {
     return settings;
 }
 
-std::string kernels_key(const RenderSettings& s) {
-    return fmt::format("{} {} {} {} {}", s.gbuffer, static_cast<int>(s.geometry),
-                       static_cast<int>(s.shading), s.shadows != Shadows::off, ranges_key(s));
+std::string kernels_key(const RenderSettings& s, const DeviceInfo& device) {
+    return fmt::format("{} {} {} {} {} {} {}", s.gbuffer, static_cast<int>(s.geometry),
+                       static_cast<int>(s.shading), s.shadows != Shadows::off, ranges_key(s),
+                       device.name, device.driver);
 }
 
 ReferenceLights usable_lights(const ReportView& view, const RenderSettings& settings) {
@@ -60,19 +61,22 @@ ReferenceOptions ReportReferences::options_of(const RenderSettings& settings, bo
     return out;
 }
 
-const ComparedReference& ReportReferences::kernels(const RenderSettings& settings) {
+const ComparedReference& ReportReferences::kernels(const RenderSettings& settings,
+                                                   const ReportDevice& device) {
     const RenderSettings decoded = decoded_settings(settings);
-    const auto [found, is_new] = kernels_.try_emplace(kernels_key(decoded));
-    if (!is_new) return found->second;
+    const std::string key = kernels_key(decoded, device.gpu->info);
+    const std::scoped_lock lock(mutex_);
+    if (const auto found = kernels_.find(key); found != kernels_.end()) return found->second;
     on_step_();
     RenderSettings exact = decoded;
     exact.kernels = {};
     exact.shadows = Shadows::off;  // only surfaces and lights are read
-    Renderer renderer(view_.opened, exact);
+    exact.opened = device.gpu;
+    Renderer renderer(device.opened, exact);
     renderer.render(view_.camera, view_.time);
-    found->second = compared_reference(
+    auto made = compared_reference(
         shade_reference(renderer.lit_surfaces(), options_of(decoded, true)), asked_);
-    return found->second;
+    return kernels_.emplace(key, std::move(made)).first->second;  // whole: the device may fail
 }
 
 ComparedReference ReportReferences::cast_reference(const RenderSettings& lights, bool windowed) {
@@ -92,28 +96,32 @@ const SurfaceSamples& ReportReferences::cast() {
 }
 
 const ComparedReference& ReportReferences::surfaces(const RenderSettings& settings) {
-    const auto [found, is_new] = surfaces_.try_emplace(ranges_key(settings));
-    if (is_new) found->second = cast_reference(settings, true);
-    return found->second;
+    const std::string key = ranges_key(settings);
+    const std::scoped_lock lock(mutex_);
+    if (const auto found = surfaces_.find(key); found != surfaces_.end()) return found->second;
+    return surfaces_.emplace(key, cast_reference(settings, true)).first->second;
 }
 
-const ComparedReference& ReportReferences::drawn(const RenderSettings& settings) {
+const ComparedReference& ReportReferences::drawn(const RenderSettings& settings,
+                                                 const ReportDevice& device) {
     RenderSettings full = settings;
     full.gbuffer = GBUFFER_FULL;
     full.shading = asked_.shading;
     full.shadows = asked_.shadows;
-    return kernels(full);
+    return kernels(full, device);
 }
 
 const ComparedReference& ReportReferences::unbounded() {
+    const std::scoped_lock lock(mutex_);
     if (!unbounded_) unbounded_ = cast_reference(asked_, false);
     return *unbounded_;
 }
 
-const ComparedReference& ReportReferences::unlimited(const RenderSettings& settings) {
+const ComparedReference& ReportReferences::unlimited(const RenderSettings& settings,
+                                                     const ReportDevice& device) {
     RenderSettings exact = settings;
     exact.tails = Tails::exact;
-    return kernels(exact);
+    return kernels(exact, device);
 }
 
 std::optional<std::uint64_t> missed_lights(const DecodedSurfaces& found,

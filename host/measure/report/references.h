@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -24,7 +25,14 @@ struct ReportView {
     std::shared_ptr<RenderScene> opened = shared_scene(scene);  // by all renderers of the report
 };
 
-/// The float64 pictures that a report's settings are compared with; each is made once.
+/// What a thread makes the pictures of a report with.
+struct ReportDevice {
+    std::shared_ptr<const Gpu> gpu;
+    std::shared_ptr<RenderScene> opened;  // the scene of the report
+};
+
+/// The float64 pictures that a report's settings are compared with; each is made once, R1 once for
+/// each kind of device. Several threads may ask at once, each with a device of its own.
 ///
 /// R1 isolates the kernels' arithmetic and culling: the same decoded G-buffer, float32 lights and
 /// shading model, every light at every pixel, shadows where the setting has some. R2 isolates the
@@ -39,23 +47,25 @@ class ReportReferences {
     /// Called before each long computation and, from worker threads, while it runs; may throw.
     void on_step(std::function<void()> call) { on_step_ = std::move(call); }
 
-    const ComparedReference& kernels(const RenderSettings& settings);   // R1
+    const ComparedReference& kernels(const RenderSettings& settings, const ReportDevice& device);
     const ComparedReference& surfaces(const RenderSettings& settings);  // R2, for its ranges
     const ComparedReference& unbounded();                               // R3
 
     /// The picture asked for, from the rasteriser's surfaces: R1 of the layout `full` and the
     /// shading model asked for. It differs from R2 by the rasteriser's error.
-    const ComparedReference& drawn(const RenderSettings& settings);
+    const ComparedReference& drawn(const RenderSettings& settings, const ReportDevice& device);
 
     /// R1 with every light that lacks a range reaching everywhere. A picture's difference from it
     /// is the error of ranges, groups and random numbers alone.
-    const ComparedReference& unlimited(const RenderSettings& settings);
+    const ComparedReference& unlimited(const RenderSettings& settings, const ReportDevice& device);
 
     struct All {
         const ComparedReference &kernels, &surfaces, &unbounded;
     };
+    /// `settings`: with an open device.
     All all(const RenderSettings& settings) {
-        return {kernels(settings), surfaces(settings), unbounded()};
+        const ReportDevice device{settings.opened, view_.opened};
+        return {kernels(settings, device), surfaces(settings), unbounded()};
     }
 
  private:
@@ -66,6 +76,7 @@ class ReportReferences {
 
     ReportView view_;
     RenderSettings asked_;
+    std::mutex mutex_;  // held while a reference is looked for or made
     std::function<void()> on_step_ = [] {};
     std::shared_ptr<const ShadowCaster> shadows_;  // where the settings asked for have some
     std::optional<SurfaceSamples> cast_;

@@ -12,11 +12,7 @@
 namespace kilolux {
 namespace {
 
-constexpr double kSettingMs = 10000.0;    // for the frames of a setting in a round
-constexpr double kSlowFrameMs = 20000.0;  // slower frames are not timed at full size
-constexpr int kLargerSide = 4;            // of the frame that shows how time grows with pixels
-
-double pixels(const RenderSettings& s) { return static_cast<double>(s.width) * s.height; }
+constexpr double kSettingMs = 10000.0;  // for the frames of a setting in a round
 
 std::vector<ReportStage> stages_of(const std::vector<StageTime>& times, double scale) {
     std::vector<ReportStage> out;
@@ -57,20 +53,15 @@ ErrorSizeLimits affordable(ErrorSizeLimits limits, const RenderSettings& setting
 
 }  // namespace
 
-// A setting's frames before they are summarised.
-struct ReportRun::Timing {
-    double expected_ms = 0.0;  // of a frame at full size
-    bool scaled = false;
-    FrameStats stats;  // of the last frame
-    std::vector<StageTime> stages;
-    std::vector<double> frames;
-    std::vector<double> relative;  // to the default's frame before or after
-};
+double pixels_of(const RenderSettings& settings) {
+    return static_cast<double>(settings.width) * settings.height;
+}
 
 ReportRun::ReportRun(const ReportView& view, const RenderSettings& base,
                      const ErrorSizeLimits& limits)
     : view_(view),
-      opened_(base.opened ? base.opened : std::make_shared<const Gpu>(choose_device(base.device))),
+      device_{base.opened ? base.opened : std::make_shared<const Gpu>(choose_device(base.device)),
+              view.opened},
       error_size_(kilolux::error_size({base.width, base.height},
                                       base.lights.count + view.scene.lights.size(),
                                       affordable(limits, base))),
@@ -84,152 +75,79 @@ void ReportRun::on_step(std::function<void()> call) {
 RenderSettings ReportRun::at_error_size(RenderSettings settings) const {
     settings.width = error_size_[0];
     settings.height = error_size_[1];
-    settings.opened = opened_;
+    settings.opened = device_.gpu;
     return settings;
+}
+
+RenderSettings ReportRun::at_error_size(const ReportRow& row) const {
+    RenderSettings out = at_error_size(row.setting.settings);
+    out.opened = row.gpu;
+    return out;
 }
 
 // Timed frames stand for frames in which everything moves.
 RenderSettings ReportRun::whole_frames(const ReportSetting& setting) const {
     RenderSettings out = setting.settings;
     out.no_reuse = true;
-    out.opened = opened_;
+    out.opened = device_.gpu;
     return out;
 }
 
 std::vector<ReportRow> ReportRun::measure(const std::vector<ReportSetting>& settings,
                                           const BenchFrames& frames) {
-    std::vector<ReportRow> rows;
-    std::vector<Timing> timings(settings.size());
-    for (std::size_t i = 0; i < settings.size(); ++i) {
-        rows.push_back(compare(settings[i], timings[i]));
+    std::vector<ComparedRow> compared;
+    for (const ReportSetting& setting : settings) {
+        compared.push_back(compare(setting, device_));
         on_progress_();
     }
-    if (!timings.front().scaled) standard_.emplace(view_.opened, whole_frames(settings.front()));
-    for (int round = 0; round < kRounds; ++round) {
-        for (std::size_t i = 0; i < settings.size(); ++i) {
-            if (i == 0 || time_only_(rows[i])) {
-                time_frames(settings[i], frames, timings[i], i > 0 ? &timings.front() : nullptr);
-            }
-            on_progress_();
-        }
-    }
-    standard_.reset();
-    for (std::size_t i = 0; i < settings.size(); ++i) {
-        ReportSpeed& speed = rows[i].speed;
-        speed = speed_of(rows[i], timings[i]);
-        if (timings[i].frames.empty()) {
+    return time(std::move(compared), frames);
+}
+
+std::vector<ReportRow> ReportRun::time(std::vector<ComparedRow> compared,
+                                       const BenchFrames& frames) {
+    coverages_.clear();  // an earlier device may have failed
+    time_rounds(compared, frames);
+    std::vector<ReportRow> rows;
+    for (ComparedRow& each : compared) {
+        const ReportTiming& timing = each.timing;
+        ReportRow& row = rows.emplace_back(std::move(each.row));
+        ReportSpeed& speed = row.speed;
+        speed = speed_of(row, timing);
+        if (timing.frames.empty()) {
             speed.relative = std::numeric_limits<double>::infinity();
             continue;
         }
-        if (timings[i].relative.empty()) {
+        if (timing.relative.empty()) {
             speed.relative = speed.frame_ms / rows.front().speed.frame_ms;
             speed.relative_p5 = speed.relative_p95 = speed.relative;
         }
         speed.frame_ms = speed.relative * rows.front().speed.frame_ms;
-        count(rows[i], timings[i]);
+        count(row, timing);
     }
     mark_fronts(rows);
     return rows;
 }
 
-// The picture whose error is measured. Of several samples with random ranges it is their mean
-// without jitter, whose edges no reference has. A first frame that seems slow is made again: it may
-// have built the kernels.
-Frame ReportRun::picture_of(Renderer& renderer, const ReportSetting& setting) {
-    Frame frame = renderer.render(view_.camera, view_.time);
-    const double whole = pixels(setting.settings) / pixels(renderer.settings());
-    if (frame.stats.frame_ms * whole > kSlowFrameMs) {
-        on_step_();
-        frame = renderer.render(view_.camera, view_.time);
+void ReportRun::time_rounds(std::vector<ComparedRow>& compared, const BenchFrames& frames) {
+    ComparedRow& standard = compared.front();
+    standard_.reset();
+    if (!standard.timing.scaled) {
+        standard_.emplace(device_.opened, whole_frames(standard.row.setting));
     }
-    const int samples = renderer.settings().samples;
-    if (setting.axis != SettingAxis::cut_off || samples <= 1) return frame;
-    std::vector<double> sums(frame.radiance.size());
-    RenderSettings one = renderer.settings();
-    one.samples = 1;
-    for (int i = 0; i < samples; ++i) {
-        on_step_();
-        if (i > 0) ++one.seed;
-        renderer.change(one);
-        const std::vector<float> light = renderer.render(view_.camera, view_.time).radiance;
-        for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += light[k];
+    for (int round = 0; round < kRounds; ++round) {
+        for (ComparedRow& each : compared) {
+            const bool is_standard = &each == &standard;
+            if (is_standard || time_only_(each.row)) {
+                time_frames(each.row.setting, frames, each.timing,
+                            is_standard ? nullptr : &standard.timing);
+            }
+            on_progress_();
+        }
     }
-    for (std::size_t k = 0; k < sums.size(); ++k) {
-        frame.radiance[k] = static_cast<float>(sums[k] / samples);
-    }
-    frame.display = display_codes(rgb_image_of(frame.width, frame.height, frame.radiance),
-                                  one.exposure, one.tone_curve);
-    return frame;
+    standard_.reset();
 }
 
-ReportRow ReportRun::compare(const ReportSetting& setting, Timing& timing) {
-    on_step_();
-    const RenderSettings settings = at_error_size(setting.settings);
-    ReportRow row;
-    row.setting = setting;
-    row.cut_off = cut_off_of(view_.scene, settings);
-    const ComparedReference& kernels = references_.kernels(settings);
-    Renderer renderer(view_.opened, settings);
-    const Frame frame = picture_of(renderer, setting);
-    if (settings.renderer == RendererKind::deferred) {
-        row.missed_lights = missed_lights(renderer.lit_surfaces().surfaces, kernels.picture);
-    }
-    row.kernels = picture_errors(frame, kernels);
-    row.surfaces = picture_errors(frame, references_.surfaces(settings));
-    row.unbounded = picture_errors(frame, references_.unbounded());
-    row.picture = rgb_image_of(frame.width, frame.height, frame.radiance);
-    row.display = frame.display;
-    const ReferencePicture& drawn = references_.drawn(settings).picture;
-    row.drawn = compare_hdr(row.picture, drawn.radiance, {.scale = &drawn.scale});
-    if (std::ranges::any_of(view_.scene.lights, lacks_range)) {
-        row.tails = compare_hdr(row.picture, references_.unlimited(settings).picture.radiance);
-    }
-    row.estimate = estimated_error(row, renderer);
-    timing.stats = frame.stats;
-    timing.expected_ms = expected_ms(setting.settings, frame.stats.frame_ms);
-    timing.scaled = timing.expected_ms > kSlowFrameMs;
-    if (timing.scaled) {
-        timing.frames = {frame.stats.frame_ms};
-        timing.stages = frame.stats.stages;
-    }
-    return row;
-}
-
-// Time of a frame at full size, extrapolated from that of the comparison. Where a small frame's
-// time does not grow with its pixels (few pixels leave a GPU idle), a larger frame is timed.
-double ReportRun::expected_ms(const RenderSettings& whole, double compared_ms) {
-    RenderSettings larger = at_error_size(whole);
-    const TimedFrame small{pixels(larger), compared_ms};
-    const double proportional = compared_ms * pixels(whole) / small.pixels;
-    larger.width *= kLargerSide;
-    larger.height *= kLargerSide;
-    if (proportional <= kSlowFrameMs || pixels(larger) >= pixels(whole)) return proportional;
-    Renderer renderer(view_.opened, larger);
-    on_step_();
-    renderer.render(view_.camera, view_.time);  // makes what later frames reuse
-    on_step_();
-    const Frame frame = renderer.render(view_.camera, view_.time);
-    return extrapolated_ms(small, {pixels(larger), frame.stats.frame_ms}, pixels(whole));
-}
-
-// Measured on a further frame, since estimating the error takes time.
-std::optional<ErrorEstimate> ReportRun::estimated_error(const ReportRow& row, Renderer& renderer) {
-    RenderSettings settings = at_error_size(row.setting.settings);
-    const std::optional<EstimateKind> kind = estimate_kind(view_.scene, settings);
-    if (!kind) return std::nullopt;
-    const ReferencePicture& reference = references_.unlimited(settings).picture;
-    on_step_();
-    settings.samples = 1;
-    settings.want = {};
-    settings.want.display = false;
-    settings.want.aovs = {estimate_aov(*kind)};
-    renderer.change(settings);
-    const Frame frame = renderer.render(view_.camera, view_.time);
-    return compare_estimate(*kind, frame.aovs.front(), row.setting.settings.samples, row.picture,
-                            reference.radiance);
-}
-
-void ReportRun::render_into(Renderer& renderer, Timing& timing) {
+void ReportRun::render_into(Renderer& renderer, ReportTiming& timing) {
     on_step_();
     const Frame frame = renderer.render(view_.camera, view_.time);
     timing.stats = frame.stats;
@@ -239,14 +157,14 @@ void ReportRun::render_into(Renderer& renderer, Timing& timing) {
 
 // Times a round's frames of a setting, each paired with one of the default's, which is rendered
 // first in every other pair.
-void ReportRun::time_frames(const ReportSetting& setting, const BenchFrames& frames, Timing& timing,
-                            Timing* standard) {
+void ReportRun::time_frames(const ReportSetting& setting, const BenchFrames& frames,
+                            ReportTiming& timing, ReportTiming* standard) {
     if (timing.scaled) return;
     const int affordable = static_cast<int>(kSettingMs / std::max(timing.expected_ms, 1e-3));
     const int measured =
         std::clamp((frames.measured + kRounds - 1) / kRounds, 1, std::max(1, affordable));
     std::optional<Renderer> own;
-    if (standard || !standard_) own.emplace(view_.opened, whole_frames(setting));
+    if (standard || !standard_) own.emplace(device_.opened, whole_frames(setting));
     Renderer& renderer = own ? *own : *standard_;
     for (int i = 0; i < std::min(frames.warm_up, affordable); ++i) {
         on_step_();
@@ -262,11 +180,12 @@ void ReportRun::time_frames(const ReportSetting& setting, const BenchFrames& fra
     timing.expected_ms = timing.frames.back();
 }
 
-ReportSpeed ReportRun::speed_of(const ReportRow& row, const Timing& timing) const {
+ReportSpeed ReportRun::speed_of(const ReportRow& row, const ReportTiming& timing) const {
     const RenderSettings& settings = row.setting.settings;
     ReportSpeed out;
     out.scaled = timing.scaled;
-    const double scale = timing.scaled ? pixels(settings) / pixels(at_error_size(settings)) : 1.0;
+    const double scale =
+        timing.scaled ? pixels_of(settings) / pixels_of(at_error_size(settings)) : 1.0;
     out.frame_ms = scale * statistics(timing.frames).median;
     out.frames = timing.frames.size();
     if (!timing.relative.empty()) {
@@ -280,34 +199,30 @@ ReportSpeed ReportRun::speed_of(const ReportRow& row, const Timing& timing) cons
     return out;
 }
 
-void ReportRun::count(ReportRow& row, const Timing& timing) {
+void ReportRun::count(ReportRow& row, const ReportTiming& timing) {
     on_step_();
     RenderSettings settings = row.setting.settings;
-    settings.opened = opened_;
+    settings.opened = device_.gpu;
     if (timing.scaled) settings = at_error_size(settings);
     RenderSettings counted = settings;
     counted.want.counts = true;
     counted.renderer = RendererKind::deferred;
     const auto [found, is_new] = coverages_.try_emplace(coverage_key(counted));
     if (is_new) {
-        found->second = Renderer(view_.opened, counted).render(view_.camera, view_.time).stats;
+        found->second = Renderer(device_.opened, counted).render(view_.camera, view_.time).stats;
     }
     FrameStats stats = timing.stats;
     if (is_forward(settings.renderer)) {
         counted.renderer = settings.renderer;
-        stats = Renderer(view_.opened, counted).render(view_.camera, view_.time).stats;
+        stats = Renderer(device_.opened, counted).render(view_.camera, view_.time).stats;
     }
     row.speed.k = stats.evaluations_per_pixel;
     row.speed.useful_k = found->second.useful_evaluations_per_pixel;
-    const double scale = timing.scaled ? pixels(row.setting.settings) / pixels(settings) : 1.0;
+    const double scale =
+        timing.scaled ? pixels_of(row.setting.settings) / pixels_of(settings) : 1.0;
     const double evaluations =
         scale * row.speed.k * static_cast<double>(found->second.surface_pixels);
     row.speed.evaluations_per_s = ratio_of(1e3 * evaluations, shading_ms(row.speed));
-}
-
-double extrapolated_ms(const TimedFrame& small, const TimedFrame& larger, double pixels) {
-    const double slope = std::max(0.0, larger.ms - small.ms) / (larger.pixels - small.pixels);
-    return larger.ms + slope * (pixels - larger.pixels);
 }
 
 std::optional<double> surfaces_rmse(const ReportRow& row) {

@@ -53,9 +53,26 @@ struct ReportRow {
     std::optional<ErrorEstimate> estimate;  // see estimate_error(): against the same
     RgbImage picture;                       // linear, at the size of the comparison
     std::vector<std::uint8_t> display;      // its sRGB codes
-    bool surfaces_front = false;   // in the Pareto set of time and R2's RMSE, among equal ranges
-    bool unbounded_front = false;  // in that of time and R3's RMSE, among the cut-offs
-    bool tails_front = false;      // in that of time and the RMSE of `tails`, among the same
+    bool surfaces_front = false;     // in the Pareto set of time and R2's RMSE, among equal ranges
+    bool unbounded_front = false;    // in that of time and R3's RMSE, among the cut-offs
+    bool tails_front = false;        // in that of time and the RMSE of `tails`, among the same
+    std::shared_ptr<const Gpu> gpu;  // that made `picture`
+};
+
+/// A setting's frames before they are summarised.
+struct ReportTiming {
+    double expected_ms = 0.0;  // of a frame at full size
+    bool scaled = false;
+    FrameStats stats;  // of the last frame
+    std::vector<StageTime> stages;
+    std::vector<double> frames;
+    std::vector<double> relative;  // to the default's frame before or after
+};
+
+/// A row with its errors; its time is only estimated.
+struct ComparedRow {
+    ReportRow row;
+    ReportTiming timing;
 };
 
 /// Measures the settings of a report over one view of a scene.
@@ -80,29 +97,43 @@ class ReportRun {
     std::vector<ReportRow> measure(const std::vector<ReportSetting>& settings,
                                    const BenchFrames& frames);
 
+    /// The parts of measure(), for several devices. Threads may call compare() at once, each with a
+    /// device of its own; devices that compute alike make the same errors.
+    ComparedRow compare(const ReportSetting& setting, const ReportDevice& device);
+    /// Measures the times of all rows, on one device, with nothing beside it.
+    std::vector<ReportRow> time(std::vector<ComparedRow> compared, const BenchFrames& frames);
+    /// Estimates the time of a slow setting anew: other devices worked while it was compared.
+    void estimate_again(ComparedRow& compared);
+    const ReportDevice& device() const { return device_; }
+    /// Times are measured on this device from now on, instead of that of the settings asked for.
+    void move_to(ReportDevice device) { device_ = std::move(device); }
+
     ReportReferences& references() { return references_; }
     /// Size of the comparison [pixel].
     std::array<int, 2> error_size() const { return error_size_; }
-    /// The settings of the comparison: at that size, on the device of the report.
+    /// The settings of the comparison: at that size, on the device of the report or of the row.
     RenderSettings at_error_size(RenderSettings settings) const;
+    RenderSettings at_error_size(const ReportRow& row) const;
 
  private:
     static constexpr int kRounds = 2;
-    struct Timing;
 
     Frame picture_of(Renderer& renderer, const ReportSetting& setting);
     RenderSettings whole_frames(const ReportSetting& setting) const;
-    ReportRow compare(const ReportSetting& setting, Timing& timing);
-    double expected_ms(const RenderSettings& whole, double compared_ms);
-    std::optional<ErrorEstimate> estimated_error(const ReportRow& row, Renderer& renderer);
-    void time_frames(const ReportSetting& setting, const BenchFrames& frames, Timing& timing,
-                     Timing* standard);
-    void render_into(Renderer& renderer, Timing& timing);
-    void count(ReportRow& row, const Timing& timing);
-    ReportSpeed speed_of(const ReportRow& row, const Timing& timing) const;
+    ReportTiming timing_of(const ReportSetting& setting, const FrameStats& compared,
+                           const ReportDevice& device);
+    double expected_ms(const RenderSettings& whole, double compared_ms, const ReportDevice& device);
+    std::optional<ErrorEstimate> estimated_error(const ReportRow& row, Renderer& renderer,
+                                                 const ReportDevice& device);
+    void time_rounds(std::vector<ComparedRow>& compared, const BenchFrames& frames);
+    void time_frames(const ReportSetting& setting, const BenchFrames& frames, ReportTiming& timing,
+                     ReportTiming* standard);
+    void render_into(Renderer& renderer, ReportTiming& timing);
+    void count(ReportRow& row, const ReportTiming& timing);
+    ReportSpeed speed_of(const ReportRow& row, const ReportTiming& timing) const;
 
     ReportView view_;
-    std::shared_ptr<const Gpu> opened_;  // of all settings: most of their programs are the same
+    ReportDevice device_;  // of all settings: most of their programs are the same
     std::array<int, 2> error_size_;
     ReportReferences references_;
     std::function<void()> on_step_ = [] {};
@@ -111,6 +142,8 @@ class ReportRun {
     std::map<std::string, FrameStats> coverages_;
     std::optional<Renderer> standard_;  // of the default setting, while frames are timed
 };
+
+double pixels_of(const RenderSettings& settings);
 
 /// Time of a frame [ms] of `pixels`, by a straight line through two smaller frames of increasing
 /// size; at least the larger one's.

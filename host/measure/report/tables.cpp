@@ -83,6 +83,14 @@ void add_errors(std::vector<Column<Row>>& columns, const std::string& of, Errors
 
 bool casts_shadows(const Row& row) { return row.setting.settings.shadows != Shadows::off; }
 
+// Whether devices of several names have measured the errors.
+bool has_unlike_devices(const std::vector<Row>& rows) {
+    const auto is_unlike = [&](const Row& row) {
+        return row.gpu && row.gpu->info.name != rows.front().gpu->info.name;
+    };
+    return std::ranges::any_of(rows, is_unlike);
+}
+
 bool has_estimate(const Row& row) { return row.estimate.has_value(); }
 
 bool has_estimate_of(const Row& row, EstimateKind kind) {
@@ -194,6 +202,9 @@ Table report_table(const std::vector<Row>& rows) {
          {"cut-off", &Row::cut_off},
          {"missed lights", &Row::missed_lights},
          {"error size", error_size_text}});
+    if (has_unlike_devices(rows)) {
+        columns.push_back({"errors by", [](const Row& row) { return row.gpu->info.name; }});
+    }
     add_errors(columns, "R1", &Row::kernels);
     add_errors(columns, "R2", &Row::surfaces);
     add_errors(columns, "R3", &Row::unbounded);

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/commands/report_devices.h"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <exception>
+#include <thread>
+#include <utility>
+
+#include "host/base/system/interrupt.h"
+#include "present/commands/devices/device_share.h"
+#include "present/commands/devices/shared_tasks.h"
+
+namespace kilolux {
+namespace {
+
+ReportDevice opened_device(const DeviceShare& share, const ReportView& view) {
+    return {std::make_shared<const Gpu>(choose_device(share.index)), shared_scene(view.scene)};
+}
+
+// The settings that devices compare with the references at once.
+struct Comparing {
+    ReportRun& run;
+    const ReportJob& job;
+    SharedTasks queue{0, job.settings.size(), job.settings.size()};
+    std::vector<ComparedRow> rows = std::vector<ComparedRow>(job.settings.size());
+};
+
+// Compares settings until none is left, or the device fails, which throws.
+void compare_settings(Comparing& all, const ReportDevice& device, DeviceShare& share) {
+    while (const std::optional<std::size_t> i = all.queue.take()) {
+        try {
+            check_interrupt();
+            all.rows[*i] = all.run.compare(all.job.settings[*i], device);
+        } catch (...) {
+            all.queue.give_back(*i);
+            throw;
+        }
+        ++share.pictures;
+        all.queue.deliver(*i, all.job.on_progress);
+    }
+}
+
+std::vector<ComparedRow> compare_on(std::vector<DeviceShare>& shares,
+                                    std::atomic<std::size_t>& left, ReportRun& run,
+                                    const ReportJob& job) {
+    Comparing all{run, job};
+    const auto fail = [&](std::exception_ptr failure) { all.queue.fail(std::move(failure)); };
+    std::vector<std::jthread> threads;
+    for (std::size_t i = 1; i < shares.size(); ++i) {
+        threads.emplace_back([&, i] {
+            run_share(shares[i], left, fail, [&] {
+                compare_settings(all, opened_device(shares[i], job.view), shares[i]);
+            });
+        });
+    }
+    run_share(shares[0], left, fail, [&] { compare_settings(all, run.device(), shares[0]); });
+    threads.clear();  // waits for them
+    all.queue.rethrow();
+    return std::move(all.rows);
+}
+
+// Times all rows on the run's device.
+std::vector<ReportRow> timed_rows(ReportRun& run, const std::vector<ComparedRow>& compared,
+                                  const ReportJob& job) {
+    std::vector<ComparedRow> rows = compared;
+    for (ComparedRow& row : rows) run.estimate_again(row);
+    return run.time(std::move(rows), job.frames);
+}
+
+}  // namespace
+
+SharedReport measure_on(const std::vector<std::string>& devices, ReportRun& run,
+                        const ReportJob& job) {
+    SharedReport out;
+    std::vector<DeviceShare> shares = shares_of(devices);
+    std::atomic<std::size_t> left = shares.size();
+    run.on_progress(job.on_progress);
+    const std::vector<ComparedRow> compared = compare_on(shares, left, run, job);
+    std::size_t timing = 0;  // device
+    std::exception_ptr failure;
+    const auto fail = [&](std::exception_ptr what) { failure = std::move(what); };
+    for (; out.rows.empty() && !failure; ++timing) {
+        DeviceShare& share = shares[timing];
+        if (!share.failure.empty()) continue;
+        run_share(share, left, fail, [&] {
+            if (timing > 0) run.move_to(opened_device(share, job.view));
+            out.rows = timed_rows(run, compared, job);
+        });
+        run.on_progress([] {});  // of another device that starts anew
+    }
+    if (failure) std::rethrow_exception(failure);
+    for (const DeviceShare& share : shares) {
+        out.shares.push_back({device_text(share), share.pictures, false, share.failure});
+    }
+    out.shares[timing - 1].has_timed = true;
+    return out;
+}
+
+std::string share_lines(const std::vector<ReportShare>& shares) {
+    std::string out;
+    for (const ReportShare& share : shares) {
+        out += fmt::format("device {}: errors of {} settings{}{}\n", share.device, share.settings,
+                           share.has_timed ? ", all times" : "",
+                           share.failure.empty() ? "" : "; left out: " + share.failure);
+    }
+    return out;
+}
+
+nlohmann::ordered_json shares_json(const std::vector<ReportShare>& shares) {
+    auto out = nlohmann::ordered_json::array();
+    for (const ReportShare& share : shares) {
+        nlohmann::ordered_json entry = {{"device", share.device},
+                                        {"settings", share.settings},
+                                        {"times", share.has_timed},
+                                        {"failure", nullptr}};
+        if (!share.failure.empty()) entry["failure"] = share.failure;
+        out.push_back(std::move(entry));
+    }
+    return out;
+}
+
+std::string failures_of(const std::vector<ReportShare>& shares) {
+    std::string out;
+    for (const ReportShare& share : shares) {
+        if (share.failure.empty()) continue;
+        out += fmt::format("{}device {} failed: {}", out.empty() ? "" : "; ", share.device,
+                           share.failure);
+    }
+    return out;
+}
+
+}  // namespace kilolux

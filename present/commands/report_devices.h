@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// A report's settings, measured by several devices.
+#pragma once
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "host/measure/report/run.h"
+
+namespace kilolux {
+
+/// What a device did of a report.
+struct ReportShare {
+    std::string device;        // index and name
+    std::size_t settings = 0;  // whose errors it measured
+    bool has_timed = false;    // all settings
+    std::string failure{};     // why it was left out; empty: it was not
+};
+
+/// Rows in the order of the settings, and each device's part.
+struct SharedReport {
+    std::vector<ReportRow> rows;
+    std::vector<ReportShare> shares;
+};
+
+/// What is measured.
+struct ReportJob {
+    const ReportView& view;
+    const std::vector<ReportSetting>& settings;
+    BenchFrames frames;
+    std::function<void()> on_progress;  // called ReportRun::steps() times, by one thread at a time
+};
+
+/// ReportRun::measure() on the devices with these indices. The first is the run's own. Errors are
+/// measured by all at once, the next setting's by whichever is free. Times are measured afterwards
+/// on the first device that has not failed, so that they have one unit and nothing beside them. A
+/// device that fails is left out with one line; others measure its settings again. Throws its error
+/// where none is left.
+SharedReport measure_on(const std::vector<std::string>& devices, ReportRun& run,
+                        const ReportJob& job);
+
+/// "device 0 (its name): errors of 7 settings, all times", a line a device.
+std::string share_lines(const std::vector<ReportShare>& shares);
+
+nlohmann::ordered_json shares_json(const std::vector<ReportShare>& shares);
+
+/// Which devices failed, and with what; empty: none.
+std::string failures_of(const std::vector<ReportShare>& shares);
+
+}  // namespace kilolux
