@@ -17,9 +17,9 @@
 #include "present/cli/scene_choice.h"
 #include "present/cli/stats_json.h"
 #include "present/commands/bench.h"
+#include "present/commands/devices/report_devices.h"
 #include "present/commands/error_budget_options.h"
 #include "present/commands/picture_tasks.h"
-#include "present/commands/report_devices.h"
 #include "present/image/image_file.h"
 #include "present/program.h"
 

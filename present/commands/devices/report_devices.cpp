@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/commands/report_devices.h"
+#include "present/commands/devices/report_devices.h"
 
 #include <fmt/format.h>
 
