@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "host/base/error.h"
 
@@ -83,6 +84,9 @@ void fill_error_bound(const DecodedSurfaces& s, const Camera&, Layer& layer) {
     });
 }
 
+// Of --max-samples: see kAutoSamplesRange.
+std::uint64_t most_samples(const DecodedSurfaces&, std::uint64_t) { return 65536; }
+
 void fill_sample_count(const DecodedSurfaces& s, const Camera&, Layer& layer) {
     assert(!s.taken.empty());
     fill(layer, layer.ids, s.view,
@@ -141,7 +145,8 @@ const std::vector<AovKind>& aov_kinds() {
         {"sample-count",
          {"sample-count"},
          "samples of --samples auto, integers",
-         fill_sample_count}};
+         fill_sample_count,
+         most_samples}};
     return kinds;
 }
 
@@ -171,7 +176,10 @@ Layer make_aov_of_strip(std::string_view name, const DecodedSurfaces& surfaces,
                         const Camera& camera, std::uint64_t lights) {
     Layer layer = make_aov(name, surfaces, camera);
     const auto most_id = kind_of(name).most_id;
-    if (most_id != nullptr) layer.most_id = most_id(surfaces, lights);
+    if (layer.is_id()) {
+        layer.most_id = most_id != nullptr ? most_id(surfaces, lights)
+                                           : std::numeric_limits<std::uint32_t>::max();
+    }
     return layer;
 }
 

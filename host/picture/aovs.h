@@ -19,7 +19,7 @@ struct AovKind {
     /// The layer's values or ids at every pixel. The surfaces have what it shows: check_settings()
     /// refuses settings that do not make it.
     void (*fill)(const DecodedSurfaces& surfaces, const Camera& camera, Layer& layer);
-    /// The largest id that may be in a picture lit by `lights`; null: a float holds all values.
+    /// The largest id that a picture lit by `lights` may have; null: any.
     std::uint64_t (*most_id)(const DecodedSurfaces& surfaces, std::uint64_t lights) = nullptr;
 };
 const std::vector<AovKind>& aov_kinds();

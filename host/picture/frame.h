@@ -20,7 +20,7 @@ struct Layer {
         channels;  // EXR channel names: {"R","G","B"}, {"Z"}, {"N.X","N.Y","N.Z"}, ...
     std::vector<float> values{};       // channels.size() * width * height; empty for ids
     std::vector<std::uint32_t> ids{};  // likewise; whole numbers: written as UINT, never averaged
-    std::uint64_t most_id = 0;         // that other rows or pictures may have; 0: not known
+    std::uint64_t most_id = 0;         // of a strip: the largest that the picture may have
     bool is_id() const { return !ids.empty(); }
 };
 

@@ -44,7 +44,9 @@ struct FrameRequest {
     ViewKind view = ViewKind::lit;  // what Frame::display shows
     std::vector<std::string> aovs;  // Frame::aovs, see aov_kinds()
     bool probes = false;            // pixels will be probed: surfaces keep all attributes
-    bool strips = false;            // the caller takes strips of rows, see MemoryPlan::strip_rows
+    // Renderers that make one picture together, whose caller takes it in strips of rows: see
+    // MemoryPlan::strip_rows. 0: it takes the whole.
+    int strip_makers = 0;
     bool operator==(const FrameRequest&) const = default;
 
     bool has_aov(std::string_view name) const {

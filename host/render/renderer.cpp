@@ -98,7 +98,7 @@ Frame Renderer::render_to(std::span<uint> pixels, const Camera& camera, double t
 
 Frame Renderer::render_strip(const Camera& camera, double time, Band rows) {
     if (!can_make_strips(settings())) {
-        throw Error("render: bloom and views need the whole picture; a strip has none");
+        throw Error("render: a view or a stage such as bloom needs the whole picture, not a strip");
     }
     return in_stage("render", [&] {
         return kilolux::render_strip(*pipeline_, {camera, time, {}, 0, rows});

@@ -82,9 +82,9 @@ class Renderer {
     /// bands, or of another view, is made whole.
     Frame render_to(std::span<uint> pixels, const Camera& camera, double time, int samples = 0);
 
-    /// Rows of the picture of render(), as a frame of their own, with its bits and what they took:
-    /// see MemoryPlan::strip_rows. No other than their pixels are in memory. Not with bloom and
-    /// views, which need the whole picture. Blocks; calls check_interrupt() as render() does.
+    /// A strip of the picture of render(): a frame of its own of these rows, which have the same
+    /// bits; its counts and times are those of the strip. Throws Error where a view or a stage such
+    /// as bloom needs the whole picture. Blocks; calls check_interrupt() as render() does.
     Frame render_strip(const Camera& camera, double time, Band rows);
 
     /// The strips of a picture from the top; one, the whole, unless it is too large for the host or

@@ -138,7 +138,7 @@ FrameRequest request_of(const RenderOptions& options, const FrameRequest& asked)
     want.display = for_the_eye || !out.reference.empty();
     want.radiance = !for_the_eye || own_display || !out.reference.empty();
     want.shown_light = own_display;
-    want.strips = can_write_strips(options);
+    want.strip_makers = can_write_strips(options) ? 1 : 0;
     want.counts =
         !out.stats.empty() || std::ranges::find(want.aovs, "light-count") != want.aovs.end();
     return want;
@@ -167,6 +167,9 @@ void PictureFiles::add(RenderedPicture picture, FrameRecord record) {
 }
 
 void PictureFiles::add_written(FrameRecord record) {
+    while (writer_ && writer_->wait_for_next()) {
+    }  // of earlier pictures
+    count_written();
     count(written_, std::move(record));
     progress_.advance();
 }
@@ -185,7 +188,7 @@ WrittenPictures PictureFiles::finish() {
 
 void PictureFiles::count_written() {
     if (!writer_) return;
-    for (const std::size_t written = writer_->written(); written_.count < written;) {
+    for (const std::size_t written = writer_->written(); counted_ < written; ++counted_) {
         count(written_, std::move(records_.front()));
         records_.pop_front();
         progress_.advance();

@@ -105,6 +105,7 @@ class PictureFiles {
     std::unique_ptr<VideoFile> video_;  // null for pictures
     WrittenPictures written_;
     std::deque<FrameRecord> records_;  // of pictures that are not written
+    std::size_t counted_ = 0;          // pictures of the writer
     Progress progress_;
     MemoryPlan memory_;
     std::size_t count_;                    // of pictures

@@ -8,7 +8,8 @@ namespace kilolux {
 
 bool can_write_strips(const RenderOptions& options) {
     const OutputOptions& out = options.output;
-    return !is_video(out.output) && can_stream(out.output) && out.reference.empty();
+    return !is_video(out.output) && can_stream(out.output) && !is_special(out.output) &&
+           out.reference.empty();
 }
 
 StripsJob::StripsJob(const Renderer& renderer, const Camera& camera, double time, bool has_alpha,
@@ -64,7 +65,7 @@ StripFile::~StripFile() {
 }
 
 void StripFile::add(RenderedPicture strip) {
-    constexpr std::size_t kPlanned = 2;  // with the one that is made: see plan_memory()
+    constexpr std::size_t kPlanned = 2;  // are coded or wait, for which plan_memory() has room
     if (!writer_) {
         notes_ = std::make_shared<const ImageNotes>(notes_of_(strip));
         writer_.emplace(kPlanned + most_held(strip, held_bytes_));

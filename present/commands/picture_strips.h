@@ -16,7 +16,8 @@
 
 namespace kilolux {
 
-/// Whether the file can be written strip by strip, and no reference needs the whole picture.
+/// Whether the file can be written strip by strip (some formats seek, which pipes cannot), and no
+/// reference needs the whole picture.
 bool can_write_strips(const RenderOptions& options);
 
 /// Makes the strips of a picture, on one device or several: a free device takes the next one.

@@ -40,16 +40,16 @@ std::string noted_command(const RenderOptions& options) {
     return fmt::format("{} # exposed by frame {}", options.command, frames->first);
 }
 
-ImageNotes notes_of(const RenderOptions& options, SceneRenderer& pictures,
+ImageNotes notes_of(const RenderOptions& options, const DeviceInfo& device, const Camera& camera,
                     const FrameRecord& record) {
-    ImageNotes notes = picture_notes(options.shared, pictures.renderer().device(), record.stats);
+    ImageNotes notes = picture_notes(options.shared, device, record.stats);
     notes.strings.emplace_back("command", noted_command(options));
     std::erase_if(notes.strings, [](const auto& entry) { return entry.first == "time"; });
     notes.strings.emplace_back("time", noted_time(record.time));
     if (record.comparison) {
         notes.strings.emplace_back("error", comparison_text(*record.comparison));
     }
-    notes.camera = pictures.camera();
+    notes.camera = camera;
     return notes;
 }
 
@@ -105,7 +105,7 @@ FrameRecord render_task(const RenderOptions& options, SceneRenderer& pictures,
     if (!task.difference.empty()) picture.difference = reference->difference(frame);
     if (options.shared.show_error) frame.display = reference->error_map(frame).rgba;
     note_layers(options, frame, task.file);
-    picture.notes = notes_of(options, pictures, record);
+    picture.notes = notes_of(options, pictures.renderer().device(), pictures.camera(), record);
     return record;
 }
 
@@ -126,7 +126,7 @@ struct Job {
     bool measures_devices;  // for the limits of --stats: where one device is all there is
 };
 
-// Names every kind of device that makes a picture.
+// Replaces the noted device by the kinds of these.
 void note_devices(ImageNotes& notes, const std::vector<DeviceShare>& shares) {
     std::vector<std::string> kinds;
     for (const DeviceShare& share : shares) {
@@ -138,18 +138,32 @@ void note_devices(ImageNotes& notes, const std::vector<DeviceShare>& shares) {
     }
 }
 
-// Makes a task's picture strip by strip and writes it. `shares` get what the devices do: of the
-// renderer's alone, or of `helpers`, too.
+// Makes strips by the renderer alone, which gets its settings back.
+std::vector<DeviceShare> make_alone(StripsJob& job, Renderer& renderer) {
+    const RenderSettings settings = renderer.settings();
+    std::vector<DeviceShare> shares(1);
+    on_device([&] {
+        job.work(renderer, 0, shares.front());
+        renderer.change(settings);
+    });
+    job.rethrow();
+    return shares;
+}
+
+// Makes a task's picture strip by strip and writes it. Its file notes all devices that were asked
+// for: the first strip is written before others are made. `shares` get what each did.
 FrameRecord write_strips(const RenderOptions& options, SceneRenderer& pictures,
                          const PictureTask& task, DeviceHelpers* helpers,
                          std::vector<DeviceShare>& shares) {
     pictures.place(task.time, task.frame);
     Renderer& renderer = pictures.renderer();
     FrameRecord record{task.frame, task.time, output_name(task.file), {}, std::nullopt};
-    const auto notes = [&](const RenderedPicture& first) {
+    // Called by any device's thread, while the renderer works.
+    const auto notes = [&, device = renderer.device(),
+                        camera = pictures.camera()](const RenderedPicture& first) {
         note_layers(options, first.frame, task.file);
         record.stats = first.frame.stats;
-        ImageNotes out = notes_of(options, pictures, record);
+        ImageNotes out = notes_of(options, device, camera, record);
         if (helpers != nullptr) note_devices(out, helpers->shares());
         return out;
     };
@@ -157,13 +171,7 @@ FrameRecord write_strips(const RenderOptions& options, SceneRenderer& pictures,
     StripsJob job(renderer, pictures.camera(), task.time, options.has_alpha,
                   helpers != nullptr ? helpers->shares().size() : 1,
                   [&file](RenderedPicture strip) { file.add(std::move(strip)); });
-    if (helpers != nullptr) {
-        shares = helpers->run(job, renderer);
-    } else {
-        shares.resize(1);
-        on_device([&] { job.work(renderer, 0, shares.front()); });
-        job.rethrow();
-    }
+    shares = helpers != nullptr ? helpers->run(job, renderer) : make_alone(job, renderer);
     file.finish();
     std::vector<FrameStats> parts;
     for (const DeviceShare& share : shares) {

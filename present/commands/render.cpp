@@ -132,6 +132,7 @@ void render_from(RenderOptions& options, const PictureTasks& tasks, std::size_t 
                        camera};
     DeviceHelpers* helpers = nullptr;  // of a single picture
     if (!more_devices.empty() && tasks.size() - begin == 1) {
+        start.want.strip_makers *= static_cast<int>(1 + more_devices.size());
         start.on_lit = [&](const Scene& scene,
                            const RenderSettings& settings) -> std::shared_ptr<void> {
             if (!has_rows_to_share(scene, settings)) {

@@ -26,9 +26,9 @@ void check_budget(SharedOptions& options, const BudgetOptions& budget) {
 }
 
 RenderSettings before_white(RenderSettings settings) {
-    const bool strips = settings.want.strips;
+    const int makers = settings.want.strip_makers;
     settings.want = radiance_only();
-    settings.want.strips = strips;
+    settings.want.strip_makers = makers;
     settings.background = std::make_shared<const Environment>(Environment{1, 1, {glm::vec3(1.0f)}});
     return settings;
 }
@@ -77,7 +77,7 @@ void SceneRenderer::expose_automatically(double time, int frame, const std::stri
     const RenderSettings wanted = renderer_->settings();
     RenderSettings settings = wanted;
     settings.want = radiance_only();
-    settings.want.strips = true;
+    settings.want.strip_makers = 1;
     settings.background.reset();
     renderer_->change(settings);
     place(time, frame);

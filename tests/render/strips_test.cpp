@@ -88,30 +88,44 @@ TEST(Strips, AreRefusedWhereThePictureIsNeeded) {
     EXPECT_NO_THROW(strip());
 }
 
-MemoryPlan plan_of_size(int width, int height, std::uint64_t memory, bool strips) {
+MemoryPlan plan_of_size(int width, int height, std::uint64_t memory, int strip_makers) {
     const Scene scene = make_generated_scene("plain");
     RenderSettings settings = small_settings(width, height, 1000);
     settings.geometry = Geometry::compute;
     settings.max_memory_bytes = memory;
-    settings.want.strips = strips;
+    settings.want.strip_makers = strip_makers;
     return plan_memory(scene, settings, make_scene_plan(scene, settings, 1000),
                        describe(choose_device(settings.device)), true);
 }
 
 TEST(Strips, LetPicturesFitThatDoNotFitAsAWhole) {
-    EXPECT_THROW(plan_of_size(65536, 65536, 2 * kGiB, false), Error);
-    const MemoryPlan plan = plan_of_size(65536, 65536, 2 * kGiB, true);
+    EXPECT_THROW(plan_of_size(65536, 65536, 2 * kGiB, 0), Error);
+    const MemoryPlan plan = plan_of_size(65536, 65536, 2 * kGiB, 1);
     EXPECT_EQ(plan.strip_rows % 32, 0);
     EXPECT_GE(plan.strip_rows, plan.band_rows);
     EXPECT_LE(plan.bytes, 2 * kGiB);
     EXPECT_LE(65536u * static_cast<std::uint64_t>(plan.strip_rows), kStripPixels);
-    EXPECT_THROW(plan_of_size(65536, 65536, 300 * kMiB, true), Error);
+    EXPECT_THROW(plan_of_size(65536, 65536, 300 * kMiB, 1), Error);
 }
 
 TEST(Strips, AreThoseOfLargePicturesOnly) {
-    EXPECT_EQ(plan_of_size(1920, 1080, 2 * kGiB, true).strip_rows, 1080);
-    EXPECT_EQ(plan_of_size(16384, 4096, 16 * kGiB, false).strip_rows, 4096);
-    EXPECT_EQ(plan_of_size(16384, 4096, 16 * kGiB, true).strip_rows, 1024);
+    EXPECT_EQ(plan_of_size(1920, 1080, 2 * kGiB, 1).strip_rows, 1080);
+    EXPECT_EQ(plan_of_size(16384, 4096, 32 * kGiB, 1).strip_rows, 4096);
+    EXPECT_EQ(plan_of_size(16384, 8192, 32 * kGiB, 0).strip_rows, 8192);
+    EXPECT_EQ(plan_of_size(16384, 8192, 32 * kGiB, 1).strip_rows, 1024);
+    EXPECT_EQ(plan_of_size(16384, 8192, 32 * kGiB, 4).strip_rows, 256) << "for each of four";
+    // Four strips of the least rows are held: that is more than the whole.
+    EXPECT_EQ(plan_of_size(65536, 64, 2 * kGiB, 1).strip_rows, 64);
+}
+
+// Bands and lists get most of the memory: more of it never leaves them much less.
+TEST(Strips, LeaveMemoryToBandsAndLists) {
+    std::uint64_t former = 0;
+    for (std::uint64_t memory = 400; memory < 8192; memory += 50) {
+        const std::uint64_t bytes = plan_of_size(8192, 8192, memory * kMiB, 1).device_bytes;
+        EXPECT_GT(bytes, former / 2) << memory << " MiB";
+        former = bytes;
+    }
 }
 
 // Where nothing was measured OpenGL draws, as wide as it can.

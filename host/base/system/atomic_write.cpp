@@ -33,13 +33,6 @@ fs::path target_of(fs::path file) {
     return file;
 }
 
-// A device, pipe or socket, which a rename would replace.
-bool is_special(const fs::path& file) {
-    std::error_code error;
-    const fs::file_status status = fs::status(file, error);
-    return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
-}
-
 void refuse_folder(const fs::path& file) {
     std::error_code error;
     if (!fs::is_directory(file, error)) return;
@@ -48,6 +41,13 @@ void refuse_folder(const fs::path& file) {
 }
 
 }  // namespace
+
+// A rename would replace it.
+bool is_special(const fs::path& file) {
+    std::error_code error;
+    const fs::file_status status = fs::status(file, error);
+    return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
 
 AtomicFile::AtomicFile(const fs::path& file, FileAccess access)
     : file_(access == FileAccess::by_umask ? target_of(file) : file) {

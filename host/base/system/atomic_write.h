@@ -46,6 +46,9 @@ class AtomicFile {
     std::optional<Descriptor> out_;
 };
 
+/// Whether the file is a device, pipe or socket, which AtomicFile writes directly.
+bool is_special(const std::filesystem::path& file);
+
 /// Writes a whole AtomicFile.
 void write_atomically(const std::filesystem::path& file, std::string_view text,
                       FileAccess access = FileAccess::by_umask);

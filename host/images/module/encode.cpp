@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <mutex>
 
 #include "host/base/error.h"
 #include "host/images/module/parts.h"
@@ -131,7 +132,9 @@ class FileWriter : public ImageWriter {
 
     // Keeps a writer that failed: to end a file without rows, libpng prints an error of its own.
     void abandon() {
+        static std::mutex mutex;
         static auto* const abandoned = new std::vector<std::unique_ptr<OIIO::ImageOutput>>;
+        const std::scoped_lock lock(mutex);
         abandoned->push_back(std::move(out_));
     }
 

@@ -191,39 +191,41 @@ struct Strip {
     Bytes fixed = 0;
 };
 
-Strip whole_picture(const RenderSettings& settings, const Need& need) {
+Strip all_rows(const RenderSettings& settings, const Need& need) {
     const auto height = static_cast<Bytes>(settings.height);
     return {settings.height, need.fixed + padded_width(settings) * height * need.picture_pixel};
 }
 
-// The highest strip of at most kStripPixels with which a band of `lowest` rows fits.
+// The highest strip of at most kStripPixels, shared by the makers, of which those that are held
+// take a small part of the memory: bands and lists need the rest.
 Strip highest_strip(const RenderSettings& settings, const Need& need, int lowest, Bytes limit) {
     // Of whole blocks of rows of image files: OpenEXR compresses up to 32 at once, OpenImageIO's
     // TIFF 32.
     constexpr int kFileRows = 32;
-    constexpr Bytes kHeld = 3;  // one is made, one is coded, and one waits
+    constexpr Bytes kHeld = 4;  // one is made, one is coded, with copies, and one waits
+    constexpr Bytes kPart = 8;  // they take one part in so many of what is left
+    const Bytes left = limit > need.fixed ? limit - need.fixed : 0;
     const Bytes width = padded_width(settings);
     const int step = std::max(lowest, kFileRows);
     const auto multiple = [step](Bytes rows) {
         return std::max(step, static_cast<int>(rows) / step * step);
     };
-    Strip out{multiple(kStripPixels / width)};
-    for (;; out.rows = multiple(static_cast<Bytes>(out.rows) / 2)) {
-        out.fixed = need.fixed + kHeld * width * static_cast<Bytes>(out.rows) * need.picture_pixel;
-        const Bytes with_band = out.fixed + width * static_cast<Bytes>(lowest) * need.band_pixel;
-        if (with_band <= limit || out.rows == step) return out;
-    }
+    const Bytes row = kHeld * width * need.picture_pixel;
+    const auto makers = static_cast<Bytes>(settings.want.strip_makers);
+    const int rows = multiple(std::min(kStripPixels / width / makers, left / kPart / row));
+    return {rows, need.fixed + row * static_cast<Bytes>(rows)};
 }
 
 Strip choose_strip(const RenderSettings& settings, const Need& need, int lowest, Bytes limit) {
-    const Strip whole = whole_picture(settings, need);
-    if (!settings.want.strips || !can_make_strips(settings)) return whole;
+    const Strip whole = all_rows(settings, need);
+    if (settings.want.strip_makers == 0 || !can_make_strips(settings)) return whole;
     const Bytes width = padded_width(settings);
-    const bool is_large = width * static_cast<Bytes>(settings.height) > 2 * kStripPixels;
-    const bool fits = whole.fixed + width * static_cast<Bytes>(lowest) * need.band_pixel <= limit;
+    const bool is_large = width * static_cast<Bytes>(settings.height) > kLargePicture;
+    // With half of the memory for bands, and for lists, which are not planned.
+    const bool fits = 2 * whole.fixed <= limit + need.fixed;
     if (fits && !is_large) return whole;
     const Strip out = highest_strip(settings, need, lowest, limit);
-    return out.rows < settings.height ? out : whole;
+    return out.fixed < whole.fixed ? out : whole;
 }
 
 }  // namespace

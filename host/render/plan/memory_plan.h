@@ -14,14 +14,16 @@ namespace kilolux {
 struct MemoryPlan {
     int band_rows = 0;               // rows made at once: a multiple of FINE_TILE
     int least_rows = 0;              // the fewest that can be made at once, likewise
-    int strip_rows = 0;              // that the host holds as one: all, or see kStripPixels
+    int strip_rows = 0;              // of a picture's strips: Renderer::strips()
     std::uint64_t bytes = 0;         // what that takes, light lists aside
     std::uint64_t held_bytes = 0;    // that finished pictures may take until they are written
     std::uint64_t device_bytes = 0;  // that device buffers may take: GrowingBuffer's budget
 };
 
-/// Pictures of more than two such strips are handed over strip by strip where the caller takes
-/// them so (FrameRequest::strips), smaller ones where they do not fit as a whole.
+/// Pictures of more pixels are handed over in strips where the caller takes them so; smaller ones
+/// where they do not fit as a whole.
+inline constexpr std::uint64_t kLargePicture = std::uint64_t{1} << 26;
+/// The most pixels of a strip, but for strips of the least rows.
 inline constexpr std::uint64_t kStripPixels = std::uint64_t{1} << 24;
 
 /// The highest bands that fit into settings.max_memory_bytes (0: most of what is available) and

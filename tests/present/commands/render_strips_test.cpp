@@ -2,6 +2,7 @@
 // Pictures that do not fit into the memory as a whole are made and written strip by strip.
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -29,21 +30,28 @@ std::vector<std::string> words_of(const fs::path& output, const std::vector<std:
 
 class RenderStrips : public testing::Test {
  protected:
-    // Renders a picture whole and with `memory`, and compares the files.
-    void expect_same(const std::string& name, std::vector<std::string> options,
-                     const std::string& memory, const std::string& device = "0") {
+    // Renders a picture whole and with `memory`, which the whole does not fit into, and compares
+    // the files. Returns what the program said.
+    std::string expect_same(const std::string& name, std::vector<std::string> options,
+                            const std::string& memory, const std::string& device = "0") {
         SCOPED_TRACE(name);
-        ASSERT_EQ(run_child(words_of(whole_ / name, options)).code, 0);
+        EXPECT_EQ(run_child(words_of(whole_ / name, options)).code, 0);
         options.insert(options.end(), {"--device", device, "--max-memory", memory});
         const ChildResult result = run_child(words_of(strips_ / name, options));
-        ASSERT_EQ(result.code, 0) << result.err;
+        EXPECT_EQ(result.code, 0) << result.err;
         EXPECT_TRUE(text_of_file(strips_ / name) == text_of_file(whole_ / name));
+        options.insert(options.end(), {"--bloom", "0.1"});  // which needs the whole
+        const ChildResult refused = run_child(words_of(strips_ / ("whole." + name), options));
+        EXPECT_EQ(refused.code, 1);
+        EXPECT_TRUE(contains(refused.err, "pixels with 20 generated lights need")) << refused.err;
+        return result.err;
     }
 
     TemporaryFolder whole_, strips_;
 };
 
-constexpr const char* kLittle = "285M";
+constexpr const char* kLittleForTwo = "620M";
+constexpr const char* kLittle = "288M";
 
 TEST_F(RenderStrips, AreWhereAWholePictureDoesNotFit) {
     const ChildResult result =
@@ -57,26 +65,38 @@ TEST_F(RenderStrips, AreWhereAWholePictureDoesNotFit) {
 TEST_F(RenderStrips, MakeTheFileOfTheWholePicture) {
     expect_same("a.png", {}, kLittle);
     expect_same("b.png", {"--background", "none", "--exposure", "auto"}, kLittle);
-    expect_same("c.exr", {"--aov", "depth,light-count,cluster", "--samples", "2"}, "330M");
+    expect_same("c.exr", {"--aov", "depth,light-count,cluster", "--samples", "2"}, "345M");
     expect_same("d.tif", {"--bits", "16"}, kLittle);
 }
 
 TEST_F(RenderStrips, MakeFramesOfASequence) {
-    const std::vector<std::string> frames = {"--frames", "0:1"};
+    // With alpha each strip is made before two backgrounds.
+    const std::vector<std::string> frames = {"--frames", "0:1", "--background", "none"};
     std::vector<std::string> strips = frames;
     strips.insert(strips.end(),
                   {"--max-memory", kLittle, "--stats", (strips_ / "s.json").string()});
-    ASSERT_EQ(run_child(words_of(whole_ / "f.#.png", frames)).code, 0);
-    ASSERT_EQ(run_child(words_of(strips_ / "f.#.png", strips)).code, 0);
-    for (const char* name : {"f.0.png", "f.1.png"}) {
-        EXPECT_TRUE(text_of_file(strips_ / name) == text_of_file(whole_ / name));
+    for (const char* name : {"f.#.png", "f.#.exr"}) {
+        ASSERT_EQ(run_child(words_of(whole_ / name, frames)).code, 0);
+        ASSERT_EQ(run_child(words_of(strips_ / name, strips)).code, 0);
     }
-    EXPECT_TRUE(contains(text_of_file(strips_ / "s.json"), "f.1.png"));
+    for (const char* name : {"f.0.png", "f.1.png", "f.0.exr", "f.1.exr"}) {
+        EXPECT_TRUE(text_of_file(strips_ / name) == text_of_file(whole_ / name)) << name;
+    }
+    const std::string stats = text_of_file(strips_ / "s.json");
+    EXPECT_TRUE(contains(stats, "f.0.exr") && contains(stats, "f.1.exr")) << stats;
+    // Files that are there are known by what they note.
+    strips.push_back("--skip-existing");
+    const ChildResult again = run_child(words_of(strips_ / "f.#.exr", strips));
+    EXPECT_TRUE(contains(again.err, "nothing to render")) << again.err;
 }
 
 TEST_F(RenderStrips, OfSeveralDevicesAreWrittenInOrder) {
-    expect_same("a.exr", {}, "570M", "all");
-    expect_same("b.png", {"--background", "none"}, "570M", "all");
+    for (const std::string& said :
+         {expect_same("a.exr", {"--samples", "8"}, kLittleForTwo, "all"),
+          expect_same("b.png", {"--background", "none"}, kLittleForTwo, "all")}) {
+        EXPECT_TRUE(contains(said, "\ndevice 1 (")) << said;
+        EXPECT_FALSE(contains(said, ": 260 rows in ")) << "one made all\n" << said;
+    }
 }
 
 TEST_F(RenderStrips, LeaveNothingWhenInterrupted) {
@@ -92,13 +112,29 @@ TEST_F(RenderStrips, LeaveNothingWhenInterrupted) {
     EXPECT_TRUE(names_in(strips_).empty());
 }
 
-TEST_F(RenderStrips, SayThatTheDiskIsFull) {
-    fs::create_symlink("/dev/full", strips_ / "a.png");
-    const ChildResult result =
-        run_child(words_of(strips_ / "a.png", {"--max-memory", kLittle, "--quiet"}));
+// The system's reason, and no part of a file.
+TEST_F(RenderStrips, SayThatAFileCannotGrow) {
+    for (const char* name : {"a.png", "a.exr", "a.tif"}) {
+        const std::vector<std::string> options = {"--max-memory", kLittle, "--quiet"};
+        // Kernels are files, too: they are built before.
+        ASSERT_EQ(run_child(words_of(whole_ / name, options)).code, 0);
+        std::vector<std::string> words = words_of(strips_ / name, options);
+        words.insert(words.begin(), {"/usr/bin/prlimit", "--fsize=400000"});
+        const ChildResult result = run_child(words);
+        EXPECT_EQ(result.code, 1);
+        EXPECT_EQ(result.err,
+                  "kilolux: " + (strips_ / name).string() + ": cannot write: File too large\n");
+        EXPECT_TRUE(names_in(strips_).empty());
+    }
+}
+
+// A pipe cannot seek, and gets the whole picture.
+TEST_F(RenderStrips, AreNotSentThroughPipes) {
+    const fs::path pipe = strips_ / "a.exr";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    const ChildResult result = run_child(words_of(pipe, {"--max-memory", kLittle}));
     EXPECT_EQ(result.code, 1);
-    EXPECT_EQ(result.err, "kilolux: " + (strips_ / "a.png").string() +
-                              ": cannot write: No space left on device\n");
+    EXPECT_TRUE(contains(result.err, "memory: ")) << result.err;
 }
 
 }  // namespace
