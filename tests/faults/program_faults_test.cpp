@@ -128,7 +128,8 @@ TEST_F(Faults, ADeviceOfTwoThatMeasureAReportIsLeftOut) {
     };
     const auto errors = [](const ChildResult& result) {
         std::vector<nlohmann::json> out;
-        for (const auto& row : nlohmann::json::parse(result.out).at("rows"))
+        const nlohmann::json json = nlohmann::json::parse(result.out);
+        for (const auto& row : json.at("rows"))
             out.push_back(
                 {row.at("R1 rmse"), row.at("R2 rmse"), row.at("R3 flip mean"), row.at("k*")});
         return out;
