@@ -21,8 +21,7 @@ struct SurfaceFeatures {
     bool masks = false;         // cut by alpha
     bool coverage = false;      // only their coverage is needed: no normals
     int anisotropy = 1;         // samples along a footprint's longer side at most
-    auto operator<=>(const SurfaceFeatures&) const =
-        default;  // NOLINT(modernize-use-nullptr): its 0
+    auto operator<=>(const SurfaceFeatures&) const = default;
 };
 
 /// Their macros with values, for OpenCL C and GLSL.
