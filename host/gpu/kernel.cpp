@@ -8,11 +8,23 @@
 
 namespace kilolux {
 
+WorkSize fit_groups(const WorkSize& size, std::size_t largest, std::string_view stage) {
+    std::size_t group = 1;
+    for (std::size_t i = 0; i < size.local.dimensions(); ++i) group *= size.local.get()[i];
+    if (group <= largest) return size;
+    if (size.is_fixed || size.local.dimensions() != 1) {
+        throw Error(std::string(stage) + ": groups of " + std::to_string(group) +
+                    " work-items; the device allows this kernel groups of " +
+                    std::to_string(largest));
+    }
+    return {size.global, cl::NDRange(std::bit_floor(largest))};  // divides a larger power of two
+}
+
 WorkSize Kernel::pixel_items(const View& view, int rows) const {
-    const std::size_t width = FINE_TILE / lanes_;
+    const std::size_t width = std::min(FINE_TILE / lanes_, std::bit_floor(largest_group_));
     const std::size_t most = std::bit_floor(std::max<std::size_t>(largest_group_ / width, 1));
     const std::size_t height = std::min(static_cast<std::size_t>(rows), most);
-    return {cl::NDRange(view.stride / FINE_TILE * width, round_up(view.height, height)),
+    return {cl::NDRange(view.stride / lanes_, round_up(view.height, height)),
             cl::NDRange(width, height)};
 }
 
@@ -54,8 +66,10 @@ bool Kernel::is_first_launch(const cl::NDRange& group) {
 }
 
 cl::Event Kernel::launch(const WorkSize& size) {
+    const WorkSize fitting = fit_groups(size, largest_group_, stage_);
     cl::Event event;
-    queue_.enqueueNDRangeKernel(kernel_, cl::NullRange, size.global, size.local, nullptr, &event);
+    queue_.enqueueNDRangeKernel(kernel_, cl::NullRange, fitting.global, fitting.local, nullptr,
+                                &event);
     return event;
 }
 

@@ -21,6 +21,7 @@ namespace kilolux {
 /// The work-items of a launch.
 struct WorkSize {
     cl::NDRange global, local;
+    bool is_fixed = false;  // the kernel depends on the size of its groups
 };
 
 /// `count` work-items in groups of `group`, rounded up: the kernel guards the ragged end.
@@ -29,11 +30,15 @@ inline WorkSize items(std::size_t count, int group) {
     return {cl::NDRange(round_up(count, size)), cl::NDRange(size)};
 }
 
-/// `count` work-groups of `group` work-items.
+/// `count` work-groups of exactly `group` work-items.
 inline WorkSize groups(std::size_t count, int group) {
     const auto size = static_cast<std::size_t>(group);
-    return {cl::NDRange(count * size), cl::NDRange(size)};
+    return {cl::NDRange(count * size), cl::NDRange(size), true};
 }
+
+/// The same work-items in groups of at most `largest`, which a device allows the kernel. Throws
+/// Error with `stage` and both sizes where the groups are fixed.
+WorkSize fit_groups(const WorkSize& size, std::size_t largest, std::string_view stage);
 
 /// Arguments that kernels take together. `each(set)` calls set(name, value) for every parameter of
 /// a macro of kernels/device/arguments.h, in its order, and set(bundle) for a bundle within it.

@@ -28,6 +28,7 @@ CoarseLighting CoarseLightLists::enqueue(const LightInput& input, const View& vi
                                          const ClusterGrid& grid, StageTimer& timer,
                                          const DeviceArray<std::uint8_t>& occupied) {
     check_input(input);
+    check_input(grid, view);
     CoarseLighting out;
     out.lights = prepare_.enqueue(input, view, grid, timer);
     out.boxes = build_.enqueue(view, grid, timer);

@@ -17,6 +17,7 @@ void DeferredLighting::set_ambient(float ambient) {
 }
 
 Radiance DeferredLighting::enqueue(const LightingInput& input, StageTimer& timer) {
+    if (visibility_) check_input(input.shadows, input.gbuffer.view);
     lists_ = {};  // arrays that grow must not be held twice
     seen_ = {};
     lists_ = light_lists_.enqueue(input.lights, input.gbuffer, input.grid, timer);
@@ -43,7 +44,9 @@ ShadowCounts DeferredLighting::count_shadows(const LightingInput& input, CastSha
 AllLightsLighting::AllLightsLighting(const Gpu& gpu, const Tuning& tuning,
                                      const KernelFeatures& features,
                                      const SurfaceFeatures& surfaces)
-    : prepare_(gpu, tuning), shade_(gpu, tuning, features, surfaces) {
+    : prepare_(gpu, tuning),
+      shade_(gpu, tuning, features, surfaces),
+      casts_shadows_(features.shadows) {
     if (!features.sampled_shadows) return;
     KernelFeatures unshadowed = features;
     unshadowed.shadows = unshadowed.sampled_shadows = false;
@@ -53,6 +56,8 @@ AllLightsLighting::AllLightsLighting(const Gpu& gpu, const Tuning& tuning,
 Radiance AllLightsLighting::enqueue(const LightingInput& input, StageTimer& timer) {
     check_input(input.gbuffer);
     check_input(input.lights);
+    check_input(input.grid, input.gbuffer.view);
+    if (casts_shadows_) check_input(input.shadows, input.gbuffer.view);
     lights_ = prepare_.enqueue(input.lights, input.gbuffer.view, input.grid, timer);
     ShadowSamples samples;
     if (unshadowed_) {

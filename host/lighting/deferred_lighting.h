@@ -93,6 +93,7 @@ class AllLightsLighting {
     std::optional<ShadeAll> unshadowed_;  // with sampled shadows
     ShadeAll shade_;
     PreparedLights lights_;
+    bool casts_shadows_;
 };
 
 }  // namespace kilolux

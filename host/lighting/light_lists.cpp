@@ -30,6 +30,7 @@ ListedLights LightLists::run(const LightInput& input, const GBuffer& gbuffer,
 ListedLights LightLists::enqueue(const LightInput& input, const GBuffer& gbuffer,
                                  const ClusterGrid& grid, StageTimer& timer) {
     check_input(gbuffer);
+    check_input(grid, gbuffer.view);
     const ListSource source{gbuffer.version, input.version, input.seed, grid};
     if (made_ && is_checked_ && source.matches(made_of_)) return *made_;
     made_.reset();  // arrays that grow must not be held twice

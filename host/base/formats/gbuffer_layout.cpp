@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/base/formats/gbuffer_layout.h"
 
+#include <algorithm>
 #include <array>
 
 #include "host/base/error.h"
@@ -96,7 +97,8 @@ std::size_t gbuffer_bytes(const GBufferLayout& layout, uint stride, uint height)
     for (uint plane = 0; plane < PLANE_COUNT; ++plane) {
         if (layout.offset_bytes[plane] == PLANE_ABSENT) continue;
         const std::size_t bytes = plane_element_bytes(layout.layout, plane);
-        end = layout.offset_bytes[plane] + (bytes * stride * height + 255) / 256 * 256;
+        const std::size_t size = (bytes * stride * height + 255) / 256 * 256;
+        end = std::max(end, layout.offset_bytes[plane] + size);
     }
     return end;
 }

@@ -77,6 +77,15 @@ void expect_planes_are_checked(const Band& band, const Run& run) {
     EXPECT_EQ(error_of([&] { run(band.lights, wrong); }),
               "lighting: G-buffer: a buffer of 1000 bytes; planes of 64 x 16 take 12288");
     wrong = band.gbuffer;
+    wrong.layout.offset_bytes[PLANE_DEPTH] = 1u << 30;
+    EXPECT_EQ(error_of([&] { run(band.lights, wrong); }),
+              "lighting: G-buffer: a buffer of 12288 bytes; planes of 64 x 16 take 1073745920");
+    wrong = band.gbuffer;
+    wrong.view.first_row = 4000000000u;
+    EXPECT_EQ(error_of([&] { run(band.lights, wrong); }),
+              "lighting: cluster grid: 4 x 4 tiles of 16 x 16 pixels in 6 slices, 96 clusters; it "
+              "does not hold a picture of 64 x 4000000016");
+    wrong = band.gbuffer;
     wrong.view.stride = 65;
     EXPECT_EQ(error_of([&] { run(band.lights, wrong); }),
               "lighting: G-buffer: width 64, stride 65; a stride is the width rounded up to 16");
@@ -108,6 +117,39 @@ TEST(AllLightsLighting, RefusesBuffersThatAreTooSmall) {
     };
     expect_planes_are_checked(band, run);
     expect_lights_are_checked(band, run);
+}
+
+// Grids of another picture, and none, for all that takes one.
+TEST(LightLists, RefuseGridsThatDoNotHoldThePicture) {
+    Band band;
+    CoarseLightLists coarse(band.gpu, default_tuning(band.gpu.info), {});
+    AllLightsLighting all(band.gpu, default_tuning(band.gpu.info), {});
+    ClusterGrid miscounted = band.grid;
+    miscounted.cluster_count = 5;
+    for (const ClusterGrid& grid :
+         {make_cluster_grid(kRequest, 64, 16), ClusterGrid{}, miscounted}) {
+        for (const std::string& message :
+             {error_of([&] { band.stage.run(band.lights, band.gbuffer, grid, band.timer); }),
+              error_of([&] { coarse.run(band.lights, band.view, grid, band.timer); }),
+              error_of([&] {
+                  all.enqueue({band.gbuffer, band.lights, grid}, band.timer);
+              })}) {
+            EXPECT_EQ(message.find("lighting: cluster grid: "), 0u) << message;
+        }
+    }
+}
+
+TEST(DeferredLighting, RefusesShadowsWithoutCasters) {
+    Band band;
+    KernelFeatures features;
+    features.shadows = true;
+    DeferredLighting lists(band.gpu, default_tuning(band.gpu.info), features);
+    AllLightsLighting all(band.gpu, default_tuning(band.gpu.info), features);
+    const LightingInput input{band.gbuffer, band.lights, band.grid};
+    const std::string expected =
+        "lighting: shadow nodes: a buffer of 0 bytes; a root and its boxes take 448";
+    EXPECT_EQ(error_of([&] { lists.light(input, band.timer); }), expected);
+    EXPECT_EQ(error_of([&] { all.enqueue(input, band.timer); }), expected);
 }
 
 TEST(LightLists, APixelOfABandHasTheListsOfItsPlaceInThePicture) {
