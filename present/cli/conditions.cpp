@@ -18,11 +18,17 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+bool is_file(const fs::path& file) {
+    std::error_code error;
+    return fs::is_regular_file(file, error);
+}
+
 // Name, size and hash of a file, read piece by piece.
 std::string file_line(const fs::path& file) {
     constexpr std::size_t kPiece = 1 << 20;
-    std::ifstream in(file, std::ios::binary);
-    if (!in) return file.filename().string() + " missing\n";
+    std::ifstream in;
+    if (is_file(file)) in.open(file, std::ios::binary);  // a pipe or a device may have no end
+    if (!in.is_open()) return file.filename().string() + " missing\n";
     std::string piece(kPiece, '\0'), hashes;
     std::uint64_t size = 0;
     do {
@@ -34,10 +40,15 @@ std::string file_line(const fs::path& file) {
     return fmt::format("{} {} {}\n", file.filename().string(), size, hash_text(hashes));
 }
 
-// The JSON of a .gltf or .glb file; discarded if there is none.
+// The JSON of a .gltf or .glb file; discarded if there is none. Levels below those of any glTF
+// object are left out.
 nlohmann::json document_of(const fs::path& file) {
+    constexpr int kLevels = 64;
+    const auto is_kept = [](int level, nlohmann::json::parse_event_t, nlohmann::json&) {
+        return level < kLevels;
+    };
     try {
-        return nlohmann::json::parse(read_gltf_text(file, file.string()).json, nullptr, false);
+        return nlohmann::json::parse(read_gltf_text(file, file.string()).json, is_kept, false);
     } catch (const Error&) {
         return nlohmann::json::value_t::discarded;
     }
@@ -53,14 +64,10 @@ std::string named_files(const nlohmann::json& document, const fs::path& folder) 
             continue;
         }
         const std::string uri = value;
-        if (!uri.starts_with("data:")) out += file_line(folder / percent_decoded(uri));
+        if (is_data_uri(uri)) continue;
+        out += file_line(folder / (is_file(folder / uri) ? uri : percent_decoded(uri)));
     }
     return out;
-}
-
-bool is_file(const std::string& name) {
-    std::error_code error;
-    return fs::is_regular_file(name, error);
 }
 
 Json camera_json(const Camera& camera) {
@@ -76,14 +83,23 @@ Json camera_json(const Camera& camera) {
 
 }  // namespace
 
-std::string scene_content(const SharedOptions& shared) {
-    std::string text = shared.scene;
+std::string input_content(const SharedOptions& shared, const std::vector<fs::path>& more) {
+    std::string text;
     if (is_file(shared.scene)) {
         const fs::path file = fs::canonical(shared.scene);
         text = file_line(file) + named_files(document_of(file), file.parent_path());
     }
-    if (is_file(shared.environment)) text += file_line(shared.environment);
-    return is_file(shared.scene) || is_file(shared.environment) ? hash_text(text) : text;
+    std::vector<fs::path> others = more;
+    others.insert(others.begin(), shared.environment);
+    for (const fs::path& file : others) {
+        if (is_file(file)) text += file_line(file);
+    }
+    return text.empty() ? "" : hash_text(text);
+}
+
+std::string scene_content(const SharedOptions& shared) {
+    const std::string files = input_content(shared);
+    return files.empty() ? shared.scene : files;
 }
 
 Json value_json(const Setting& setting) {
