@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <OpenImageIO/filesystem.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <mutex>
+#include <optional>
 
 #include "host/base/error.h"
 #include "host/images/module/parts.h"
@@ -101,6 +104,103 @@ class DescriptorProxy : public OIIO::Filesystem::IOProxy {
     int error_ = 0;  // of errno
 };
 
+// Writes the rows of an OpenEXR file, compressed in threads: OpenImageIO hands OpenEXR 16 MB at a
+// time, which in a wide picture are blocks for a few threads only. Pieces of the picture are coded
+// as files of their own, whose blocks are those of the whole.
+class ExrRows {
+ public:
+    /// `proxy` has got the header of the file and the table of its blocks, empty.
+    ExrRows(std::string name, const OIIO::ImageSpec& spec, OIIO::Filesystem::IOProxy& proxy)
+        : name_(std::move(name)), spec_(spec), proxy_(proxy), table_end_(proxy.tell()) {}
+
+    void write(int begin, int rows, const unsigned char* pixels, std::size_t pixel_stride) {
+        constexpr std::size_t kPiece = 4u << 20;  // [byte]
+        const std::size_t row_bytes = static_cast<std::size_t>(spec_.width) * pixel_stride;
+        const int piece = static_cast<int>(std::max<std::size_t>(kPiece / row_bytes / 32, 1)) * 32;
+        // Each takes the memory of four at most; all together take that of the rows twice.
+        const int most = (rows / piece + 1) / 2;
+        const int threads = tbb::this_task_arena::max_concurrency();
+        int next = 0, done = 0;
+        const auto pieces = [&](tbb::flow_control& flow) {
+            if (next >= rows) flow.stop();
+            return std::exchange(next, next + piece);
+        };
+        const auto coded = [&](int row) {
+            return blocks_of(std::min(piece, rows - row),
+                             pixels + static_cast<std::size_t>(row) * row_bytes, pixel_stride);
+        };
+        const auto put = [&](Blocks blocks) {
+            append(std::move(blocks), begin + std::exchange(done, done + piece));
+        };
+        // While it waits the thread takes no other picture to code.
+        tbb::this_task_arena::isolate([&] {
+            tbb::parallel_pipeline(
+                static_cast<std::size_t>(std::clamp(most, 1, threads)),
+                tbb::make_filter<void, int>(tbb::filter_mode::serial_in_order, pieces) &
+                    tbb::make_filter<int, Blocks>(tbb::filter_mode::parallel, coded) &
+                    tbb::make_filter<Blocks, void>(tbb::filter_mode::serial_in_order, put));
+        });
+    }
+
+    /// After the last row.
+    void write_table() {
+        const std::size_t bytes = places_.size() * sizeof places_[0];
+        proxy_.seek(table_end_ - static_cast<std::int64_t>(bytes));
+        proxy_.write(places_.data(), bytes);
+    }
+
+ private:
+    // Blocks as the file has them, from `begin` on.
+    struct Blocks {
+        std::vector<unsigned char> bytes{};
+        std::size_t begin = 0;
+    };
+    // What precedes a block's data.
+    struct BlockHead {
+        std::int32_t row;
+        std::int32_t bytes;
+    };
+
+    Blocks blocks_of(int rows, const unsigned char* pixels, std::size_t pixel_stride) const {
+        OIIO::ImageSpec spec = spec_;
+        spec.height = spec.full_height = rows;
+        Blocks out;
+        out.bytes.reserve(spec.image_bytes(true));  // growing would copy: few pieces are larger
+        OIIO::Filesystem::IOVecOutput memory(out.bytes);
+        const auto file = create_output(name_, "openexr", memory);
+        bool is_good = file->open("memory.openexr", spec);
+        out.begin = out.bytes.size();
+        is_good = is_good && file->write_scanlines(0, rows, 0, type_in(spec), pixels,
+                                                   static_cast<OIIO::stride_t>(pixel_stride));
+        if (!is_good || !file->close()) fail(name_, file->geterror());
+        return out;
+    }
+
+    // Puts blocks of rows from `row` on to the end of the file.
+    void append(Blocks blocks, int row) {
+        for (std::size_t at = blocks.begin; at < blocks.bytes.size();) {
+            BlockHead head;
+            std::memcpy(&head, &blocks.bytes[at], sizeof head);
+            head.row += row;
+            std::memcpy(&blocks.bytes[at], &head, sizeof head);
+            places_.push_back(static_cast<std::uint64_t>(proxy_.tell()) + at - blocks.begin);
+            at += sizeof head + static_cast<std::size_t>(head.bytes);
+        }
+        proxy_.write(&blocks.bytes[blocks.begin], blocks.bytes.size() - blocks.begin);
+    }
+
+    std::string name_;
+    OIIO::ImageSpec spec_;
+    OIIO::Filesystem::IOProxy& proxy_;
+    std::int64_t table_end_;
+    std::vector<std::uint64_t> places_{};  // of the blocks in the file
+};
+
+// Whether ExrRows writes the file. Threads would only copy what is not compressed.
+bool has_exr_rows(const std::string& format, const OIIO::ImageSpec& spec) {
+    return format == "openexr" && spec.get_string_attribute("compression") != "none";
+}
+
 class FileWriter : public ImageWriter {
  public:
     FileWriter(const std::string& name, const std::string& format, const ImageLayout& layout,
@@ -110,15 +210,21 @@ class FileWriter : public ImageWriter {
           proxy_(file),
           out_(create_output(name, format, proxy_)) {
         check(out_->open("memory." + format, spec_));
+        if (has_exr_rows(format, spec_)) exr_.emplace(name_, spec_, proxy_);
     }
 
     void write(int rows, std::span<const unsigned char> pixels, std::size_t pixel_stride) override {
-        check(out_->write_scanlines(next_, next_ + rows, 0, type_in(spec_), pixels.data(),
-                                    static_cast<OIIO::stride_t>(pixel_stride)));
+        if (exr_) exr_->write(next_, rows, pixels.data(), pixel_stride);
+        check(exr_ || out_->write_scanlines(next_, next_ + rows, 0, type_in(spec_), pixels.data(),
+                                            static_cast<OIIO::stride_t>(pixel_stride)));
         next_ += rows;
     }
 
-    void close() override { check(out_->close()); }
+    void close() override {
+        check(out_->close());
+        if (exr_) exr_->write_table();
+        check(true);
+    }
 
  private:
     // The system's reason is better than that of the format's library.
@@ -142,6 +248,7 @@ class FileWriter : public ImageWriter {
     OIIO::ImageSpec spec_;
     DescriptorProxy proxy_;
     std::unique_ptr<OIIO::ImageOutput> out_;  // writes its end when it is destroyed, too
+    std::optional<ExrRows> exr_{};            // of such a file
     int next_ = 0;                            // row
 };
 
@@ -156,12 +263,16 @@ std::vector<unsigned char> encode_pixels(const std::string& name, const std::str
     OIIO::Filesystem::IOVecOutput memory(bytes);
     const OIIO::ImageSpec spec = spec_of(layout);
     const auto out = create_output(name, format, memory);
-    if (!out->open("memory." + format, spec) ||
-        !out->write_image(type_in(spec), pixels.data(),
-                          static_cast<OIIO::stride_t>(pixel_stride)) ||
-        !out->close()) {
+    if (!out->open("memory." + format, spec)) fail(name, out->geterror());
+    std::optional<ExrRows> exr;
+    if (has_exr_rows(format, spec)) {
+        exr.emplace(name, spec, memory).write(0, spec.height, pixels.data(), pixel_stride);
+    } else if (!out->write_image(type_in(spec), pixels.data(),
+                                 static_cast<OIIO::stride_t>(pixel_stride))) {
         fail(name, out->geterror());
     }
+    if (!out->close()) fail(name, out->geterror());
+    if (exr) exr->write_table();
     return bytes;
 }
 
