@@ -9,7 +9,7 @@
 #include "host/base/error.h"
 #include "host/base/hash.h"
 #include "host/base/version.h"
-#include "host/scene/gltf/json_text.h"
+#include "host/scene/gltf/json/json_text.h"
 #include "present/cli/commit.h"
 
 namespace kilolux {

@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "host/scene/gltf/json_text.h"
+#include "host/scene/gltf/json/json_text.h"
 
 namespace kilolux {
 

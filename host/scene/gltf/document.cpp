@@ -10,8 +10,8 @@
 #include "host/scene/gltf/check.h"
 #include "host/scene/gltf/choices.h"
 #include "host/scene/gltf/extensions.h"
+#include "host/scene/gltf/json/parse_model.h"
 #include "host/scene/gltf/mesh/meshopt.h"
-#include "host/scene/gltf/parse_model.h"
 
 namespace kilolux {
 namespace {

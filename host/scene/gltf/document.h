@@ -17,7 +17,7 @@
 
 #include "host/base/error.h"
 #include "host/scene/gltf/files.h"
-#include "host/scene/gltf/json_text.h"
+#include "host/scene/gltf/json/json_text.h"
 #include "host/scene/gltf/load_budget.h"
 #include "host/scene/gltf/load_scene.h"
 

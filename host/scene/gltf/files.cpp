@@ -12,7 +12,7 @@
 #include "host/base/error.h"
 #include "host/base/log.h"
 #include "host/base/text.h"
-#include "host/scene/gltf/json_text.h"
+#include "host/scene/gltf/json/json_text.h"
 
 namespace kilolux {
 namespace {

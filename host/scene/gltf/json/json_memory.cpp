@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/gltf/json_memory.h"
+#include "host/scene/gltf/json/json_memory.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

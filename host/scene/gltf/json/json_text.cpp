@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/gltf/json_text.h"
+#include "host/scene/gltf/json/json_text.h"
 
 #include <fmt/core.h>
 
@@ -9,7 +9,7 @@
 
 #include "host/base/error.h"
 #include "host/base/text.h"
-#include "host/scene/gltf/json_memory.h"
+#include "host/scene/gltf/json/json_memory.h"
 
 namespace kilolux {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/gltf/parse_model.h"
+#include "host/scene/gltf/json/parse_model.h"
 
 #include <cctype>
 #include <limits>
 
-#include "host/scene/gltf/json_memory.h"
+#include "host/scene/gltf/json/json_memory.h"
 
 namespace kilolux {
 namespace {
