@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <CLI/Config.hpp>
-#include <nlohmann/json.hpp>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <string_view>

@@ -260,7 +260,8 @@ void mark_fronts(std::vector<ReportRow>& rows) {
 }
 
 const ReportRow* row_that_beats_default(const std::vector<ReportRow>& rows) {
-    const std::optional<double> standard = rows.empty() ? std::nullopt : surfaces_rmse(rows.front());
+    const std::optional<double> standard =
+        rows.empty() ? std::nullopt : surfaces_rmse(rows.front());
     if (!standard) return nullptr;
     const ReportRow* found = nullptr;
     for (const ReportRow& row : rows) {

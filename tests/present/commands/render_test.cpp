@@ -293,9 +293,8 @@ Frame sky_of(float light) {
 
 TEST(Render, AMissingEnvironmentIsFoundBeforeTheSceneIsLoaded) {
     for (const char* command : {"render", "bench", "report"}) {
-        const ChildResult result =
-            run_kilolux({command, "no_such_scene.gltf", "--environment", "no_file.hdr", "-o",
-                         "/no_such_folder/a.png"});
+        const ChildResult result = run_kilolux({command, "no_such_scene.gltf", "--environment",
+                                                "no_file.hdr", "-o", "/no_such_folder/a.png"});
         EXPECT_EQ(result.code, 1);
         EXPECT_EQ(result.err, "kilolux: no_file.hdr: no such environment file\n") << command;
     }
