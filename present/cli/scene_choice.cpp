@@ -146,11 +146,11 @@ std::string tails_line(const Scene& scene, const RenderSettings& settings, bool 
                       settings.range_budget);
 }
 
-Environment opened_environment(const std::string& name) {
+Environment opened_environment(const std::string& name, std::uint64_t max_memory_bytes) {
     const std::vector<std::string>& built_in = built_in_environment_names();
     const std::filesystem::path file(name);
     const bool is_name = std::ranges::find(built_in, name) != built_in.end();
-    if (is_name || std::filesystem::exists(file)) return environment_of(name);
+    if (is_name || std::filesystem::exists(file)) return environment_of(name, max_memory_bytes);
     if (file.has_extension() || file.has_parent_path()) {
         throw Error(name + ": no such environment file");
     }
@@ -167,7 +167,8 @@ std::string add_environment(SharedOptions& options, AnimatedScene& scene) {
             Environment{1, 1, {background.color}, background.as_shown});
     }
     if (options.environment.empty()) return "";
-    Environment environment = opened_environment(options.environment);
+    Environment environment =
+        opened_environment(options.environment, options.settings.max_memory_bytes);
     std::string line = fmt::format("; environment {}: ", options.environment);
     if (options.reflections) {
         options.maps = std::make_shared<const PrefilteredEnvironment>(
