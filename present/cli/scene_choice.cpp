@@ -156,7 +156,8 @@ std::string add_environment(SharedOptions& options, AnimatedScene& scene) {
     }
     if (options.environment.empty()) return "";
     check_environment(options.environment);
-    Environment environment = environment_of(options.environment);
+    Environment environment =
+        environment_of(options.environment, options.settings.max_memory_bytes);
     std::string line = fmt::format("; environment {}: ", options.environment);
     if (options.reflections) {
         options.maps = std::make_shared<const PrefilteredEnvironment>(

@@ -33,6 +33,12 @@ void expect_both(const SharedOptions& o) {
     EXPECT_FALSE(o.verbose);
 }
 
+TEST(ConfigFile, MayHaveNoEnd) {
+    CLI::App app;
+    EXPECT_TRUE(contains(message_of<Error>([&] { apply_config_file(app, "/dev/zero"); }),
+                         "/dev/zero: cannot read: is larger than 256 MiB"));
+}
+
 TEST(ConfigFile, Toml) {
     expect_both(
         parse("# a comment\nscene = \"grid\"\nlights = 77\nresolution = [64, 48]\n"

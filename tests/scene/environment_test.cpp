@@ -211,5 +211,16 @@ TEST(Environment, BrokenFilesAreOneLine) {
         contains(message_of<Error>([&] { read_environment(file); }), "is twice as wide as high"));
 }
 
+// Before memory is taken for what a header claims.
+TEST(Environment, NeedsNoMoreMemoryThanThereMayBe) {
+    const TempFolder folder;
+    const auto file = folder.path() / "a.hdr";
+    write_file(file, std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 32000 +X 64000\n"));
+    EXPECT_TRUE(contains(message_of<Error>([&] { read_environment(file, 1 << 30); }),
+                         "a.hdr: needs 39063 MiB of memory as an environment, of 1024 MiB "
+                         "(--max-memory)"))
+        << message_of<Error>([&] { read_environment(file, 1 << 30); });
+}
+
 }  // namespace
 }  // namespace kilolux

@@ -6,7 +6,8 @@
 
 namespace kilolux {
 
-/// A file's bytes. Throws Error "<file>: cannot read: <the system's reason>".
+/// A file's bytes. Throws Error "<file>: cannot read: <the system's reason>", also for
+/// more than 256 MiB.
 std::string read_text(const std::filesystem::path& file);
 
 }  // namespace kilolux

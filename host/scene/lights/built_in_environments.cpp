@@ -177,10 +177,10 @@ const std::vector<std::string>& built_in_environment_names() {
     return names;
 }
 
-Environment environment_of(const std::string& name_or_file) {
+Environment environment_of(const std::string& name_or_file, std::uint64_t max_memory_bytes) {
     if (name_or_file == "studio") return studio_environment();
     if (name_or_file == "sky") return sky_environment();
-    return read_environment(name_or_file);
+    return read_environment(name_or_file, max_memory_bytes);
 }
 
 }  // namespace kilolux

@@ -22,6 +22,6 @@ Environment sky_environment();
 const std::vector<std::string>& built_in_environment_names();
 
 /// The built-in environment of that name, else the file's: read_environment().
-Environment environment_of(const std::string& name_or_file);
+Environment environment_of(const std::string& name_or_file, std::uint64_t max_memory_bytes = 0);
 
 }  // namespace kilolux

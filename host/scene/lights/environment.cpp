@@ -13,6 +13,7 @@
 
 #include "host/base/error.h"
 #include "host/base/formats/srgb.h"
+#include "host/base/system/memory.h"
 #include "host/images/images.h"
 
 namespace kilolux {
@@ -175,7 +176,7 @@ Environment painted_environment(
     return out;
 }
 
-Environment read_environment(const std::filesystem::path& file) {
+Environment read_environment(const std::filesystem::path& file, std::uint64_t max_memory_bytes) {
     const auto in = open_image(file);
     const ImageLayout& image = in->layout();
     Environment out{image.width, image.height, {}};
@@ -184,6 +185,14 @@ Environment read_environment(const std::filesystem::path& file) {
             fmt::format("{}: an environment is twice as wide as high, in 3 channels, not "
                         "{}x{} in {}",
                         file.string(), out.width, out.height, image.channels.size()));
+    }
+    // Its light, and sums of it.
+    const std::uint64_t need = image.pixels() * (sizeof(glm::vec3) + sizeof(double));
+    const std::uint64_t most =
+        max_memory_bytes > 0 ? max_memory_bytes : available_memory_bytes() / 2;
+    if (need > most) {
+        throw Error(fmt::format("{}: needs {} of memory as an environment, of {} (--max-memory)",
+                                file.string(), mebibytes(need), mebibytes(most)));
     }
     out.rows.resize(out.place(0, out.height));
     in->read(0, 3, SampleType::float32, out.rows.data(), sizeof(glm::vec3));

@@ -46,8 +46,8 @@ double luminance(const glm::dvec3& light);
 /// A picture in any format that OpenImageIO reads: .hdr and .exr are linear, those of 8 or 16 bits
 /// encoded in sRGB; primaries that a file names become Rec. 709's. Throws Error with the file
 /// for what cannot be read, is not twice as wide as high, or has a pixel that is negative or no
-/// number.
-Environment read_environment(const std::filesystem::path& file);
+/// number, or that needs more than `max_memory_bytes` (0: half of what is available).
+Environment read_environment(const std::filesystem::path& file, std::uint64_t max_memory_bytes = 0);
 
 /// At most `count` directional lights that stand for the environment, by median cut (Debevec 2005,
 /// "A Median Cut Algorithm for Light Probe Sampling"): the region with the most light is cut across
