@@ -99,26 +99,31 @@ bool is_drawn(const Frame& frame) {
                                [](const StageTime& stage) { return stage.name == "geometry"; });
 }
 
-// As alpha does, strip by strip: OpenGL draws a tile once for both backgrounds.
+// As alpha makes strips: OpenGL draws their tile once for both backgrounds.
 TEST(Strips, BeforeTwoBackgroundsAreDrawnOnce) {
     const Scene scene = make_generated_scene("grid");
-    RenderSettings settings = small_settings(96, 128, 100);
-    settings.geometry = Geometry::ids;
-    settings.want.aovs = {"depth"};
-    RenderSettings white = settings;
+    RenderSettings black = small_settings(96, 128, 100);
+    black.geometry = Geometry::ids;
+    RenderSettings white = black;
     white.background = std::make_shared<const Environment>(Environment{1, 1, {glm::vec3(1.0f)}});
     white.want = radiance_only();
     const Camera camera = first_camera(scene);
-    const Frame wanted = render_once(scene, white);
-    Renderer renderer(scene, settings);
-    EXPECT_TRUE(is_drawn(renderer.render_strip(camera, 0.0, {0, 64})));
-    renderer.change(white);
+    const Frame on_black = render_once(scene, black), on_white = render_once(scene, white);
+    Renderer renderer(scene, black);
     for (const Band& rows : {Band{0, 64}, Band{64, 64}}) {
-        const Frame strip = renderer.render_strip(camera, 0.0, rows);
-        EXPECT_FALSE(is_drawn(strip));
-        EXPECT_TRUE(strip.radiance == rows_of(wanted.radiance, strip, 3));
+        renderer.change(black);
+        const Frame first = renderer.render_strip(camera, 0.0, rows);
+        EXPECT_EQ(is_drawn(first), rows.first_row == 0);
+        EXPECT_TRUE(first.radiance == rows_of(on_black.radiance, first, 3));
+        renderer.change(white);
+        const Frame second = renderer.render_strip(camera, 0.0, rows);
+        EXPECT_FALSE(is_drawn(second));
+        EXPECT_TRUE(second.radiance == rows_of(on_white.radiance, second, 3));
     }
-    EXPECT_TRUE(is_drawn(renderer.render_strip(camera, 0.1, {0, 64}))) << "at another time";
+    RenderSettings wider = white;
+    wider.width = 112;
+    renderer.change(wider);
+    EXPECT_TRUE(is_drawn(renderer.render_strip(camera, 0.0, {64, 64}))) << "another picture";
 }
 
 TEST(Strips, AreRefusedWhereThePictureIsNeeded) {
