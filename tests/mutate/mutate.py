@@ -11,8 +11,10 @@ A mutant is a copy of kernels/ and raster/ with one change, which programs of BU
 A line for each mutant says which test killed it. One with which a kernel does not build counts as neither killed nor survived.
 Survivors that change no result are in equivalent.txt, each with its reason. Exit status 1: another mutant survived, or one of the file cannot be made any more.
 """
+import concurrent.futures
 import os
 import pathlib
+import queue
 import random
 import re
 import shutil
@@ -29,6 +31,8 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 FOLDERS = ("shared", "device", "lights", "lists", "shading", "shadows", "surfaces", "tails", "picture")
 SECONDS = 120  # without output: an endless loop
+CORES = 2  # for each mutant: tests share what PoCL and llvmpipe leave of them
+WORKERS = max((os.cpu_count() or 1) // CORES, 1)  # mutants at a time
 NO_BUILD = re.compile(r"build failed with CL_|: does not compile: ")
 
 
@@ -70,14 +74,15 @@ class Tests:
         self.work = pathlib.Path(work)
         self.passes = {}  # of the unchanged kernels, by program and case
         self.copies = {name: self.work / name for name in ("unchanged", "mutant")}
-        (self.work / "cache").mkdir()
+        (self.work / "cache").mkdir(parents=True)
         for copy in self.copies.values():
             for folder in ("kernels", "raster"):
                 shutil.copytree(ROOT / folder, copy / folder)
 
     def run(self, copy, program, cases):
         """A test's exit status and output; None: it is too slow."""
-        environment = dict(os.environ, KILOLUX_SOURCE_DIR=str(self.copies[copy]), POCL_CACHE_DIR=str(self.work / "cache"))
+        environment = dict(os.environ, KILOLUX_SOURCE_DIR=str(self.copies[copy]), POCL_CACHE_DIR=str(self.work / "cache"),
+                           POCL_MAX_PTHREAD_COUNT=str(CORES), LP_NUM_THREADS=str(CORES))
         command = [self.build / "tests" / program, f"--gtest_filter={cases}", "--gtest_fail_fast"]
         log = self.work / "log"
         with open(log, "wb") as out, subprocess.Popen(command, env=environment, stdout=out, stderr=subprocess.STDOUT,
@@ -129,16 +134,31 @@ def stale(mutants):
     return [entry for entry in equivalents() if entry not in made]
 
 
-def report(mutants, tests):
-    """Prints a line for each mutant; the number of survivors that are not known, and of known ones that are gone."""
+def verdicts(mutants, build, work):
+    """What the tests say of each mutant, in order, with its kind; WORKERS at a time, each with its own copy of the kernels."""
     known = equivalents()
-    counts = dict.fromkeys(("killed", "no build", "equivalent", "SURVIVED"), 0)
-    for mutant in mutants:
-        by = ""
-        kind = "equivalent" if (mutant.file, mutant.before, mutant.after) in known else "SURVIVED"
-        if kind == "SURVIVED":
+    free = queue.SimpleQueue()
+    for worker in range(WORKERS):
+        free.put(Tests(build, pathlib.Path(work) / str(worker)))
+
+    def verdict(mutant):
+        if (mutant.file, mutant.before, mutant.after) in known:
+            return "equivalent", ""
+        tests = free.get()
+        try:
             by = tests.verdict(mutant, steps_of(mutant.file))
-            kind = "no build" if by == "no build" else "killed" if by else kind
+        finally:
+            free.put(tests)
+        return "no build" if by == "no build" else "killed" if by else "SURVIVED", by
+
+    with concurrent.futures.ThreadPoolExecutor(WORKERS) as pool:
+        yield from zip(mutants, pool.map(verdict, mutants))
+
+
+def report(mutants, build, work):
+    """Prints a line for each mutant; the number of survivors that are not known, and of known ones that are gone."""
+    counts = dict.fromkeys(("killed", "no build", "equivalent", "SURVIVED"), 0)
+    for mutant, (kind, by) in verdicts(mutants, build, work):
         counts[kind] += 1
         by = f" by {by}" if kind == "killed" else ""
         print(f"{kind}{by}: {mutant.file}:{mutant.line}\n    {mutant.before}\n    {mutant.after}", flush=True)
@@ -175,15 +195,14 @@ def main(build, *words):
             len(words) <= 2 and all(word.isdecimal() and int(word) > 0 for word in words)):
         sys.exit(__doc__)
     with tempfile.TemporaryDirectory() as work:
-        tests = Tests(build, work)
         if words[:1] == ("--selftest",):
-            return selftest(tests) != 0
+            return selftest(Tests(build, pathlib.Path(work) / "0")) != 0
         if words[:1] == ("--only",):
             mutants = [m for m in all_mutants() if words[1] in m.before]
         else:
             count, seed = (int(word) for word in (*words, *("100", "1")[len(words):]))
             mutants = chosen(all_mutants(), count, seed)
-        return report(mutants, tests) != 0
+        return report(mutants, build, work) != 0
 
 
 if __name__ == "__main__":

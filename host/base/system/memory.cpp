@@ -8,6 +8,8 @@
 #include <fstream>
 #include <limits>
 
+#include "host/base/error.h"
+
 namespace kilolux {
 namespace {
 
@@ -42,18 +44,37 @@ std::uint64_t group_available() {
     return below(number_in(group + "max"), number_in(group + "current"));
 }
 
-std::uint64_t address_space_available() {
+// Pages of this process, in bytes: of its address space, or those that are resident.
+std::uint64_t own_pages(bool resident) {
+    std::ifstream in("/proc/self/statm");
+    std::uint64_t all = 0, present = 0;
+    if (!(in >> all >> present)) return 0;
+    return (resident ? present : all) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+// RLIMIT_AS
+std::uint64_t address_space_limit() {
     rlimit limit{};
     if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return kUnknown;
-    const std::uint64_t pages = number_in("/proc/self/statm");
-    const auto page = static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-    return below(limit.rlim_cur, pages == kUnknown ? 0 : pages * page);
+    return limit.rlim_cur;
 }
+
+std::uint64_t address_space_available() { return below(address_space_limit(), own_pages(false)); }
 
 }  // namespace
 
 std::uint64_t available_memory_bytes() {
     return std::min({system_available(), group_available(), address_space_available()});
+}
+
+std::uint64_t resident_memory_bytes() { return own_pages(true); }
+
+void require_address_space(std::uint64_t bytes, const std::string& what) {
+    const std::uint64_t left = address_space_available();
+    if (left >= bytes) return;
+    throw Error("memory: " + what + " needs " + mebibytes(bytes) + " of address space, " +
+                std::to_string(left >> 20) + " MiB of " + mebibytes(address_space_limit()) +
+                " are left (ulimit -v)");
 }
 
 std::string mebibytes(std::uint64_t bytes) {

@@ -50,10 +50,12 @@ constexpr int kAnyAnisotropy = 1;
 // OpenCL drivers and encoders of image files take the rest of what is available.
 constexpr double kAvailableShare = 0.8;
 
-// For all renderers.
+// All that the process may hold, the program's own part of it included.
 Bytes whole_limit(const RenderSettings& settings) {
     if (settings.max_memory_bytes > 0) return settings.max_memory_bytes;
-    return static_cast<Bytes>(kAvailableShare * static_cast<double>(available_memory_bytes()));
+    const Bytes own = std::min(resident_memory_bytes(), kProgram);
+    return static_cast<Bytes>(kAvailableShare *
+                              static_cast<double>(std::min(available_memory_bytes(), ~own) + own));
 }
 
 std::string limit_text(const RenderSettings& settings) {
@@ -177,9 +179,13 @@ bool needs_whole_tiles(const Scene& scene, const RenderSettings& settings) {
     return is_forward(settings.renderer) || has_blended_surfaces(scene);
 }
 
+std::string lights_text(Bytes count) {
+    return fmt::format("{} generated light{}", count, count == 1 ? "" : "s");
+}
+
 std::string picture_text(const RenderSettings& settings) {
-    return fmt::format("{}x{} pixels with {} generated lights", settings.width, settings.height,
-                       settings.lights.count);
+    return fmt::format("{}x{} pixels with {}", settings.width, settings.height,
+                       lights_text(settings.lights.count));
 }
 
 int multiple_of_tile(Bytes rows) { return static_cast<int>(rows / FINE_TILE * FINE_TILE); }
@@ -268,12 +274,14 @@ MemoryPlan plan_memory(const Scene& scene, const RenderSettings& settings, const
 }
 
 void check_light_memory(std::uint64_t lights, const RenderSettings& settings) {
+    const Bytes limit = memory_limit(settings);
     const Bytes need = kProgram + lights * kLight;
-    if (need <= memory_limit(settings)) return;
-    throw Error(
-        fmt::format("memory: {} at least {}; {}",
-                    lights == 0 ? "the program needs" : fmt::format("{} lights need", lights),
-                    mebibytes(need), limit_text(settings)));
+    if (need <= limit) return;
+    const std::string what =
+        kProgram > limit
+            ? "the program with its drivers needs at least " + mebibytes(kProgram)
+            : "the program and " + lights_text(lights) + " need at least " + mebibytes(need);
+    throw Error("memory: " + what + "; " + limit_text(settings));
 }
 
 }  // namespace kilolux

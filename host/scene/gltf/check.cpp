@@ -16,9 +16,6 @@ namespace {
 
 using nlohmann::json;
 
-// Deeper than any real file. Limited because readers of JSON may recurse.
-constexpr int kMaxDepth = 100;
-
 std::string shown(const json& value) {
     constexpr std::size_t kLongest = 40;
     if (value.is_array() && value.size() > 16) return fmt::format("an array of {}", value.size());
@@ -179,34 +176,12 @@ struct Checker {
     }
 };
 
-// Levels of arrays and objects. Counted on the text: JSON readers may recurse, and the parser's
-// callback takes time quadratic in an array's length.
-int nesting_depth(std::string_view text) {
-    int depth = 0;
-    int deepest = 0;
-    bool in_string = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (in_string) {
-            if (c == '\\') ++i;
-            in_string = c != '"';
-        } else if (c == '"') {
-            in_string = true;
-        } else if (c == '[' || c == '{') {
-            deepest = std::max(deepest, ++depth);
-        } else if (c == ']' || c == '}') {
-            --depth;
-        }
-    }
-    return deepest;
-}
-
-json parse(std::string_view text, const std::string& name) {
-    if (nesting_depth(text) > kMaxDepth) {
-        throw Error(fmt::format("{}: JSON is nested deeper than {} levels", name, kMaxDepth));
+json parse(const JsonText& json_text, const std::string& name) {
+    if (json_text.depth > kDeepestJson) {
+        throw Error(fmt::format("{}: JSON is nested deeper than {} levels", name, kDeepestJson));
     }
     try {
-        return json::parse(text);
+        return json::parse(json_text.text);
     } catch (const json::exception& error) {
         const std::string what = error.what();
         throw Error(name + ": is not JSON: " + what.substr(what.find(']') + 2));
@@ -233,7 +208,7 @@ void check_version(const json& root, const std::string& name) {
 
 }  // namespace
 
-json parse_gltf_json(std::string_view text, const std::string& name) {
+json parse_gltf_json(const JsonText& text, const std::string& name) {
     json root = parse(text, name);
     check_version(root, name);
     for (const GltfRule& rule : gltf_rules()) {

@@ -3,7 +3,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <string_view>
+
+#include "host/scene/gltf/json/json_text.h"
 
 namespace kilolux {
 
@@ -11,6 +12,6 @@ namespace kilolux {
 /// indices that the rules promise; a whole number written as 3.0 becomes an integer.
 ///
 /// Throws Error "<name>: accessors[7].count is "x", must be an integer from 0 to ...".
-nlohmann::json parse_gltf_json(std::string_view text, const std::string& name);
+nlohmann::json parse_gltf_json(const JsonText& text, const std::string& name);
 
 }  // namespace kilolux

@@ -247,6 +247,8 @@ TEST(BenchResults, TablesAreThoseOfTheirCsv) {
         EXPECT_EQ(text_of_file(entry.path()),
                   text_of_file(folder / entry.path().filename().string()))
             << entry.path() << ": run host/measure/results/make_tables";
+        EXPECT_TRUE(contains(text_of_file(entry.path()), ", shading "))
+            << entry.path() << " says how surfaces reflect light";
         ++tables;
     }
     EXPECT_EQ(tables, names_in(folder).size());
