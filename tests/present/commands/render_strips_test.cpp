@@ -103,6 +103,9 @@ TEST_F(RenderStrips, OfSeveralDevicesAreWrittenInOrder) {
 
 // The whole picture takes 1.1 GB. Kernels that are not built yet take their compiler.
 TEST_F(RenderStrips, StayWithinTheMemory) {
+#if defined(__SANITIZE_ADDRESS__)
+    GTEST_SKIP() << "the sanitizer takes memory of its own";
+#endif
     constexpr long kLimit = 350, kCompiler = 150;  // [MiB]
     std::vector<std::string> words =
         words_of(strips_ / "a.exr", {"--device", "0", "--max-memory", fmt::format("{}M", kLimit)});
