@@ -146,7 +146,7 @@ bool has_egl() {
 // Throws where EGL is missing: the loader of OpenGL's functions would end the program.
 void require_egl() {
     // Mesa 22 with llvmpipe takes 530 MiB up to its first pictures. With less, LLVM aborts.
-    constexpr std::uint64_t kAddressSpace = std::uint64_t{768} << 20;
+    constexpr std::uint64_t kAddressSpace = std::uint64_t{720} << 20;
     static bool started = false;
     if (!started) require_address_space(kAddressSpace, "OpenGL's driver");
     started = true;

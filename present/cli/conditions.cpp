@@ -18,11 +18,17 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+bool is_file(const fs::path& file) {
+    std::error_code error;
+    return fs::is_regular_file(file, error);
+}
+
 // Name, size and hash of a file, read piece by piece.
 std::string file_line(const fs::path& file) {
     constexpr std::size_t kPiece = 1 << 20;
-    std::ifstream in(file, std::ios::binary);
-    if (!in) return file.filename().string() + " missing\n";
+    std::ifstream in;
+    if (is_file(file)) in.open(file, std::ios::binary);  // a pipe or a device may have no end
+    if (!in.is_open()) return file.filename().string() + " missing\n";
     std::string piece(kPiece, '\0'), hashes;
     std::uint64_t size = 0;
     do {
@@ -80,14 +86,10 @@ std::string named_files(const fs::path& file) {
     }
     std::string out;
     for (const std::string& uri : named.uris()) {
-        out += file_line(file.parent_path() / percent_decoded(uri));
+        const fs::path folder = file.parent_path();
+        out += file_line(folder / (is_file(folder / uri) ? uri : percent_decoded(uri)));
     }
     return out;
-}
-
-bool is_file(const std::string& name) {
-    std::error_code error;
-    return fs::is_regular_file(name, error);
 }
 
 Json camera_json(const Camera& camera) {
@@ -103,14 +105,23 @@ Json camera_json(const Camera& camera) {
 
 }  // namespace
 
-std::string scene_content(const SharedOptions& shared) {
-    std::string text = shared.scene;
+std::string input_content(const SharedOptions& shared, const std::vector<fs::path>& more) {
+    std::string text;
     if (is_file(shared.scene)) {
         const fs::path file = fs::canonical(shared.scene);
         text = file_line(file) + named_files(file);
     }
-    if (is_file(shared.environment)) text += file_line(shared.environment);
-    return is_file(shared.scene) || is_file(shared.environment) ? hash_text(text) : text;
+    std::vector<fs::path> others = more;
+    others.insert(others.begin(), shared.environment);
+    for (const fs::path& file : others) {
+        if (is_file(file)) text += file_line(file);
+    }
+    return text.empty() ? "" : hash_text(text);
+}
+
+std::string scene_content(const SharedOptions& shared) {
+    const std::string files = input_content(shared);
+    return files.empty() ? shared.scene : files;
 }
 
 Json value_json(const Setting& setting) {

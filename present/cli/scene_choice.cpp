@@ -146,18 +146,6 @@ std::string tails_line(const Scene& scene, const RenderSettings& settings, bool 
                       settings.range_budget);
 }
 
-Environment opened_environment(const std::string& name) {
-    const std::vector<std::string>& built_in = built_in_environment_names();
-    const std::filesystem::path file(name);
-    const bool is_name = std::ranges::find(built_in, name) != built_in.end();
-    if (is_name || std::filesystem::exists(file)) return environment_of(name);
-    if (file.has_extension() || file.has_parent_path()) {
-        throw Error(name + ": no such environment file");
-    }
-    throw UsageError(fmt::format("--environment '{}' is no file, and none of {}{}", name,
-                                 joined(built_in), did_you_mean(name, built_in)));
-}
-
 // Sets options.shown_background, too.
 std::string add_environment(SharedOptions& options, AnimatedScene& scene) {
     using Kind = BackgroundChoice::Kind;
@@ -167,7 +155,8 @@ std::string add_environment(SharedOptions& options, AnimatedScene& scene) {
             Environment{1, 1, {background.color}, background.as_shown});
     }
     if (options.environment.empty()) return "";
-    Environment environment = opened_environment(options.environment);
+    check_environment(options.environment);
+    Environment environment = environment_of(options.environment);
     std::string line = fmt::format("; environment {}: ", options.environment);
     if (options.reflections) {
         options.maps = std::make_shared<const PrefilteredEnvironment>(
@@ -214,6 +203,18 @@ std::string choose_tone_curve(SharedOptions& options, const Scene& scene) {
 }
 
 }  // namespace
+
+void check_environment(const std::string& name) {
+    const std::vector<std::string>& built_in = built_in_environment_names();
+    const std::filesystem::path file(name);
+    const bool is_name = std::ranges::find(built_in, name) != built_in.end();
+    if (name.empty() || is_name || std::filesystem::exists(file)) return;
+    if (file.has_extension() || file.has_parent_path()) {
+        throw Error(name + ": no such environment file");
+    }
+    throw UsageError(fmt::format("--environment '{}' is no file, and none of {}{}", name,
+                                 joined(built_in), did_you_mean(name, built_in)));
+}
 
 AnimatedScene open_animated_scene(const SharedOptions& options) {
     if (is_generated_scene(options.scene)) {

@@ -26,7 +26,7 @@ struct RenderOptions {
     OutputOptions output;
     BudgetOptions budget;
     bool has_alpha = false;  // the picture: see wants_alpha()
-    std::string command{};   // picture_command() of what was asked for
+    std::string command{};   // picture_command() of what was asked for, and inputs_comment()
     bool operator==(const RenderOptions&) const = default;
 };
 

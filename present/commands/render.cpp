@@ -158,6 +158,7 @@ void run_render(RenderOptions& options) {
     options.has_alpha = wants_alpha(options);  // lighting the scene may change the background
     begin_command(options.shared, !out.reference.empty());
     check_budget(options.shared, options.budget);
+    options.command += inputs_comment(options);
     const PictureTasks tasks(options);
     if (tasks.size() == 0) {
         return note(fmt::format("nothing to render: shard {}/{} has none of the frames {}:{}",

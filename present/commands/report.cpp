@@ -161,7 +161,7 @@ void check_default(const ReportOptions& options, const std::vector<ReportRow>& r
     const ReportRow* better = row_that_beats_default(rows);
     if (better == nullptr) return;
     const std::string text = fmt::format(
-        "the default is not in the Pareto set: {} takes {:.2f} of its time, its R2 RMSE is {:.3g} "
+        "another setting beats the default: {} takes {:.2f} of its time, its R2 RMSE is {:.3g} "
         "for {:.3g}",
         better->setting.name, better->speed.relative, better->surfaces.hdr.rmse,
         rows.front().surfaces.hdr.rmse);
@@ -246,7 +246,7 @@ void add_report_options(CLI::App& command, ReportOptions& options) {
         .count({"--frames", "N", "20", "Measured frames; fewer of slow settings"}, options.frames,
                {1, 1'000'000})
         .flag("--check-default", options.check_default,
-              "Exit with 3 where another setting is as good in time and error and better in one")
+              "Exit with 3 where another setting is faster beyond noise and as exact")
         .text({"--output,-o", "DIR", "", "Folder for CSV, JSON, Markdown, plots and pictures"},
               options.output)
         .flag(

@@ -330,7 +330,7 @@ TEST_F(Faults, AddressSpaceThatIsShort) {
                                         fmt::format("--as={}", limit << 20)},
                                        picture_, {"--geometry", geometry}));
             if (result.code == 0) break;
-            expect_failure(result, "memory: ");
+            expect_failure(result, " MiB");
             EXPECT_EQ(result.err.find('\n') + 1, result.err.size()) << "one line\n" << result.err;
             expect_untouched();
         }

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/base/system/memory.h"
 
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
 #include <limits>
+#include <thread>
 
 #include "host/base/error.h"
 
@@ -70,10 +72,17 @@ std::uint64_t available_memory_bytes() {
 std::uint64_t resident_memory_bytes() { return own_pages(true); }
 
 void require_address_space(std::uint64_t bytes, const std::string& what) {
+    // A stack, and PoCL's local memory.
+    constexpr std::uint64_t kThread = std::uint64_t{28} << 20;
+    constexpr int kArenas = 2;
+    const std::uint64_t limit = address_space_limit();
+    if (limit == kUnknown) return;
+    mallopt(M_ARENA_MAX, kArenas);
+    const std::uint64_t need = bytes + kThread * std::thread::hardware_concurrency();
     const std::uint64_t left = address_space_available();
-    if (left >= bytes) return;
-    throw Error("memory: " + what + " needs " + mebibytes(bytes) + " of address space, " +
-                std::to_string(left >> 20) + " MiB of " + mebibytes(address_space_limit()) +
+    if (left >= need) return;
+    throw Error("memory: " + what + " needs " + mebibytes(need) + " of address space, " +
+                std::to_string(left >> 20) + " MiB of " + mebibytes(limit) +
                 " are left (ulimit -v)");
 }
 
