@@ -128,8 +128,13 @@ LightInput begin(Pipeline& p, const Shot& shot, Frame& frame, FrameStats& stats)
     p.last.camera = shot.camera;
     const PictureKey key{context.settings, shot.camera, shot.time,
                          context.scene->scene().revisions};
-    // OpenGL's targets hold the tile that further rows of the same picture need.
-    if (!shot.rows || !(key == p.samples.key())) p.last.raster_tile = -1;
+    // OpenGL's targets hold the tile that further rows of the same picture need, before any
+    // background.
+    PictureKey drawn = key;
+    drawn.settings.background.reset();
+    drawn.settings.want = {};
+    if (!shot.rows || !(drawn == p.last.drawn)) p.last.raster_tile = -1;
+    p.last.drawn = std::move(drawn);
     p.samples.begin(key, context.is_whole() ? shot.samples : 0);
     p.picture.begin(shot.display, frame, shot.rows.has_value());
     stats.zero_normals = context.scene->zero_normals();

@@ -224,7 +224,9 @@ AnimatedScene open_animated_scene(const SharedOptions& options) {
     std::optional<Progress> bar;
     LoadOptions load = options.load;
     load.time = options.time;
-    load.max_memory_bytes = options.settings.max_memory_bytes;
+    const RenderSettings& settings = options.settings;
+    load.max_memory_bytes =
+        settings.memory_shares > 1 ? memory_limit(settings) : settings.max_memory_bytes;
     return AnimatedScene(scene_file(options.scene), load, [&](std::size_t done, std::size_t total) {
         if (!bar) bar.emplace("loading images", total, !options.quiet);
         if (done > 0) bar->advance();

@@ -47,7 +47,7 @@ struct Report {
     nlohmann::ordered_json context;
     std::string caption;  // scene, lights, sizes, device, for pictures
     std::vector<ReportRow> rows;
-    std::vector<ReportShare> shares;  // of several devices
+    std::vector<DeviceShare> shares;  // of several devices
     bool plots = false;               // are written
 };
 
@@ -82,7 +82,7 @@ void measure(const ReportOptions& options, const ReportView& view, ReportRun& ru
         auto [rows, shares] = measure_on(options.devices, run, {view, settings, frames, advance});
         report.rows = std::move(rows);
         report.shares = std::move(shares);
-        report.context["devices"] = shares_json(report.shares);
+        report.context["devices"] = report_json(report.shares);
     }
     run.on_step([] {});
     run.on_progress([] {});
@@ -123,7 +123,7 @@ void write_errors(const fs::path& folder, const Report& report, const ReportRow&
 // The summary with its notes: report.md.
 std::string report_text(const Report& report) {
     return to_markdown(report_summary(report.rows), 3) + "\n" + report_notes(report.rows) +
-           share_lines(report.shares);
+           report_lines(report.shares);
 }
 
 // The document of --json and report.json.

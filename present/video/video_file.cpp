@@ -68,7 +68,10 @@ const Encoder* encoder_of(const fs::path& file) {
 class FileSink : public VideoFile::Sink {
  public:
     explicit FileSink(const fs::path& file) : file_(file) {}
-    void write(std::string_view bytes) override { file_.write(bytes); }
+    void write(std::string_view bytes) override {
+        file_.write(bytes);
+        begin_flush(file_.descriptor());
+    }
     void commit() override { file_.commit(); }
 
  private:

@@ -82,6 +82,25 @@ TEST(MemoryPlan, CountsWhatAutomaticGeometryAndTheDifferenceTake) {
     EXPECT_EQ(more.bytes - difference.bytes, 2 * (plan(scene, settings).bytes - view.bytes));
 }
 
+// Each takes its part; messages say what is divided.
+TEST(MemoryPlan, RenderersShareTheMemory) {
+    const Scene scene = make_generated_scene("plain");
+    RenderSettings settings = small_settings(64, 64, 100);
+    const auto made = [&] {
+        return plan_memory(scene, settings, make_scene_plan(scene, settings, 100), cpu());
+    };
+    settings.max_memory_bytes = std::uint64_t{1} << 29;
+    const MemoryPlan half = made();
+    settings.max_memory_bytes = std::uint64_t{1} << 30;
+    settings.memory_shares = 2;
+    const MemoryPlan share = made();
+    EXPECT_EQ(share.device_bytes, half.device_bytes);
+    EXPECT_EQ(share.held_bytes, half.held_bytes);
+    settings.memory_shares = 8;
+    const std::string refused = message_of<Error>(made);
+    EXPECT_TRUE(refused.ends_with(" MiB; --max-memory is 1024 MiB for 8 devices")) << refused;
+}
+
 // The message blames lights only where the program fits without them.
 TEST(MemoryPlan, TheProgramAloneMayBeTooLarge) {
     RenderSettings settings = small_settings(64, 64, 5000);
