@@ -112,7 +112,7 @@ Entries written_entries(const std::string& text) {
         if (value.is_open()) {
             entries.back().text.append(" ").append(trim(value.add(line)));
         } else if (const std::string_view start = trim(line);
-                   equals != line.npos && start.find_first_of("#[") != 0) {
+                   equals != line.npos && start.find_first_of("#;[") != 0) {
             std::string name(trim(line.substr(0, equals)));
             std::erase_if(name, [](char c) { return c == '"' || c == '\''; });
             const std::string_view text_of_value = trim(value.add(line.substr(equals + 1)));

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -147,9 +148,8 @@ bool has_egl() {
 void require_egl() {
     // Mesa 22 with llvmpipe takes 530 MiB up to its first pictures. With less, LLVM aborts.
     constexpr std::uint64_t kAddressSpace = std::uint64_t{720} << 20;
-    static bool started = false;
-    if (!started) require_address_space(kAddressSpace, "OpenGL's driver");
-    started = true;
+    static std::once_flag started;  // stays unset where this throws
+    std::call_once(started, [] { require_address_space(kAddressSpace, "OpenGL's driver"); });
     if (has_egl()) return;
     throw Error(
         "EGL: libEGL.so.1 cannot be loaded, and so nothing drawn by OpenGL; Debian's "

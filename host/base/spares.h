@@ -7,8 +7,8 @@
 
 namespace kilolux {
 
-/// Things that are done with, whose memory serves again: to get large arrays from the system and to
-/// clear them takes as long as to fill them. All functions may be called by any thread.
+/// Used objects whose memory serves again: to allocate and clear large arrays takes as long as to
+/// fill them. All functions may be called by any thread.
 template <typename T>
 class Spares {
  public:
@@ -17,7 +17,7 @@ class Spares {
         spares_.push_back(std::move(spare));
     }
 
-    /// One that was given, as it was then; a new one where there is none.
+    /// A used object with its old contents, or a new one where there is none.
     T take() {
         const std::scoped_lock lock(mutex_);
         if (spares_.empty()) return {};

@@ -9,7 +9,9 @@
 #include "host/base/error.h"
 #include "host/base/hash.h"
 #include "host/base/version.h"
+#include "host/scene/generated/scenes.h"
 #include "host/scene/gltf/json/json_text.h"
+#include "host/scene/lights/built_in_environments.h"
 #include "present/cli/commit.h"
 
 namespace kilolux {
@@ -87,7 +89,7 @@ std::string named_files(const fs::path& file) {
     std::string out;
     for (const std::string& uri : named.uris()) {
         const fs::path folder = file.parent_path();
-        out += file_line(folder / (is_file(folder / uri) ? uri : percent_decoded(uri)));
+        out += file_line(folder / relative_path_of(folder, uri));
     }
     return out;
 }
@@ -107,12 +109,12 @@ Json camera_json(const Camera& camera) {
 
 std::string input_content(const SharedOptions& shared, const std::vector<fs::path>& more) {
     std::string text;
-    if (is_file(shared.scene)) {
+    if (!is_generated_scene(shared.scene) && is_file(shared.scene)) {
         const fs::path file = fs::canonical(shared.scene);
         text = file_line(file) + named_files(file);
     }
     std::vector<fs::path> others = more;
-    others.insert(others.begin(), shared.environment);
+    if (!is_built_in_environment(shared.environment)) others.push_back(shared.environment);
     for (const fs::path& file : others) {
         if (is_file(file)) text += file_line(file);
     }

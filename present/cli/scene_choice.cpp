@@ -205,14 +205,17 @@ std::string choose_tone_curve(SharedOptions& options, const Scene& scene) {
 
 }  // namespace
 
+void check_scene(const std::string& name_or_file) {
+    if (!is_generated_scene(name_or_file)) scene_file(name_or_file);
+}
+
 void check_environment(const std::string& name) {
-    const std::vector<std::string>& built_in = built_in_environment_names();
     const std::filesystem::path file(name);
-    const bool is_name = std::ranges::find(built_in, name) != built_in.end();
-    if (name.empty() || is_name || std::filesystem::exists(file)) return;
+    if (name.empty() || is_built_in_environment(name) || std::filesystem::exists(file)) return;
     if (file.has_extension() || file.has_parent_path()) {
         throw Error(name + ": no such environment file");
     }
+    const std::vector<std::string>& built_in = built_in_environment_names();
     throw UsageError(fmt::format("--environment '{}' is no file, and none of {}{}", name,
                                  joined(built_in), did_you_mean(name, built_in)));
 }

@@ -6,6 +6,10 @@
 
 namespace kilolux {
 
+/// Throws Error or UsageError where a name is no scene's: no generated one, no file, or one of
+/// another kind. Reads no file.
+void check_scene(const std::string& name_or_file);
+
 /// Throws Error for an environment file that is not there, UsageError for another text that is no
 /// name of a built-in one.
 void check_environment(const std::string& name);

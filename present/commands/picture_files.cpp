@@ -2,6 +2,7 @@
 #include "present/commands/picture_files.h"
 
 #include <algorithm>
+#include <new>
 
 #include "host/base/system/atomic_write.h"
 #include "present/cli/frame_summary.h"
@@ -106,7 +107,10 @@ std::size_t bytes_of(const Frame& frame) {
 RenderedPicture::~RenderedPicture() {
     if (!spares) return;
     frame.aovs.clear();
-    spares->give(std::move(frame));
+    try {
+        spares->give(std::move(frame));
+    } catch (const std::bad_alloc&) {  // it is freed instead
+    }
 }
 
 // The renderer's display picture has 8 bits and our tone curves; other pictures are made here.

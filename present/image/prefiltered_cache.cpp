@@ -72,11 +72,8 @@ std::optional<PrefilteredEnvironment> parsed(std::string_view file, const std::s
 }  // namespace
 
 PrefilteredEnvironment kept_prefiltered(const std::string& name, const Environment& environment) {
-    const auto& built_in = built_in_environment_names();
     const std::filesystem::path folder = cache_folder();
-    if (folder.empty() || std::ranges::find(built_in, name) == built_in.end()) {
-        return prefiltered(environment);
-    }
+    if (folder.empty() || !is_built_in_environment(name)) return prefiltered(environment);
     const std::filesystem::path file = folder / ("prefiltered-" + name);
     const std::string head = head_of(environment);
     if (auto kept = parsed(read_cache_file(file, kLargest), head)) return std::move(*kept);

@@ -11,6 +11,7 @@
 #include "host/base/system/interrupt.h"
 #include "host/base/text.h"
 #include "host/measure/reference/decoded_samples.h"
+#include "host/measure/reference/frame_error.h"
 #include "present/cli/option_builder.h"
 #include "present/program.h"
 
@@ -225,6 +226,11 @@ ReferencePicture ThreadRenderer::reference() {
     return run([this] {
         if (!rendered_) render_now(options_.shared.time);
         Renderer& renderer = pictures_->renderer();
+        if (const auto word = beyond_reference(renderer.settings()); !word.empty()) {
+            throw Error("reference(): the picture has " + std::string(word) +
+                        ", which its reference does not model: change(samples=1, "
+                        "background=\"none\", reflections=False) first");
+        }
         ReferenceOptions model = reference_options(renderer, pictures_->camera());
         model.progress = [this](double) { check(*running_); };
         return shade_reference(renderer.lit_surfaces(), model);

@@ -60,7 +60,7 @@ class ThreadRenderer {
     Probed probe(int x, int y);
 
     /// The float64 reference of that picture's surfaces and lights, and how many lights reach a
-    /// pixel.
+    /// pixel. Throws Error where the picture has what the reference does not model.
     ReferencePicture reference();
 
  private:

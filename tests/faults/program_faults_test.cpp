@@ -328,7 +328,7 @@ TEST_F(Faults, AddressSpaceThatIsShort) {
         for (std::uint64_t limit = kLeast; limit < 2400; limit += limit < 440 ? 120 : 37) {
             SCOPED_TRACE(fmt::format("{} with {} MiB", geometry, limit));
             const ChildResult result =
-                run_child(render_words({"/usr/bin/timeout", "-s", "KILL", "60", "/usr/bin/prlimit",
+                run_child(render_words({"/usr/bin/timeout", "-s", "KILL", "300", "/usr/bin/prlimit",
                                         fmt::format("--as={}", limit << 20)},
                                        picture_, {"--geometry", geometry}));
             if (result.code == 0) break;

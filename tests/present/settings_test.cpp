@@ -69,7 +69,7 @@ const std::map<std::string, std::string>& special_values() {
         {"--device", "pthread"},
         {"--max-memory", "1073741824"},
         {"--grid", "8,4,2"},
-        {"--lanes", "4"},
+        {"--lanes", "2"},
         {"--output", "a.exr"},
         {"--exr-compression", "zips"},
         {"--aov-ids", "uint"},

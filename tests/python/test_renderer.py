@@ -176,6 +176,17 @@ def test_a_reference_has_the_shadows_and_the_shading_of_its_picture():
     assert kilolux.relmse(renderer.render().radiance, renderer.reference().radiance) < 1e-10
 
 
+def test_a_reference_refuses_what_it_does_not_model():
+    for word, options in {"samples": {"samples": 2}, "background": {"background": "0.5,0.5,0.5"},
+                          "reflections": {"environment": "sky", "background": "none", "reflections": True}}.items():
+        renderer = kilolux.Renderer("grid", **SMALL, **options)
+        renderer.render()
+        with pytest.raises(kilolux.Error, match=f"the picture has {word}, which its reference does not model"):
+            renderer.reference()
+        renderer.change(samples=1, background="none", reflections=False)
+        assert kilolux.relmse(renderer.render().radiance, renderer.reference().radiance) < 1e-6
+
+
 def test_two_renderers_in_two_threads():
     def work(scene, out):
         renderer = kilolux.Renderer(scene, **SMALL)

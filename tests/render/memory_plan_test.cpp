@@ -98,7 +98,7 @@ TEST(MemoryPlan, RenderersShareTheMemory) {
     EXPECT_EQ(share.held_bytes, half.held_bytes);
     settings.memory_shares = 8;
     const std::string refused = message_of<Error>(made);
-    EXPECT_TRUE(refused.ends_with(" MiB; --max-memory is 1024 MiB for 8 devices")) << refused;
+    EXPECT_TRUE(refused.ends_with(" MiB; 8 devices share 1024 MiB (--max-memory)")) << refused;
 }
 
 // The message blames lights only where the program fits without them.

@@ -2,6 +2,7 @@
 #include "host/measure/reference/frame_error.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "host/measure/metrics/error_size.h"
 #include "host/measure/metrics/flip.h"
@@ -37,14 +38,21 @@ ReferenceError error_of(const RgbImage& picture, const ReferencePicture& referen
 
 }  // namespace
 
+std::string_view beyond_reference(const RenderSettings& settings) {
+    if (settings.samples > 1 || settings.auto_samples.on) return "samples";
+    if (settings.background) return "background";
+    return settings.reflections ? "reflections" : "";
+}
+
 FrameError measure_frame_error(Renderer& renderer, RenderSettings settings, const Camera& camera,
                                double time, const OnProgress& progress) {
     make_small(settings, renderer.light_count(settings));
     settings.want = radiance_only();
     settings.samples = 1;
     settings.auto_samples.on = false;
-    settings.background.reset();  // the reference has surfaces and lights only
+    settings.background.reset();
     settings.reflections.reset();
+    assert(beyond_reference(settings).empty());
     renderer.change(settings);
     const Frame frame = renderer.render(camera, time);
     const RgbImage picture = rgb_image_of(frame.width, frame.height, frame.radiance);

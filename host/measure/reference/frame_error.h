@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "host/measure/metrics/metrics.h"
@@ -9,6 +10,10 @@
 #include "host/render/renderer.h"
 
 namespace kilolux {
+
+/// The first setting of a picture that its reference does not model, by its option; empty: none. A
+/// reference has one sample a pixel, and the light of lights on surfaces alone.
+std::string_view beyond_reference(const RenderSettings& settings);
 
 /// Errors of a picture against one reference.
 struct ReferenceError {

@@ -59,8 +59,10 @@ Bytes whole_limit(const RenderSettings& settings) {
 }
 
 std::string limit_text(const RenderSettings& settings) {
-    std::string whole = mebibytes(whole_limit(settings));
-    if (settings.memory_shares > 1) whole += fmt::format(" for {} devices", settings.memory_shares);
+    const std::string whole = mebibytes(whole_limit(settings));
+    if (settings.memory_shares > 1) {
+        return fmt::format("{} devices share {} (--max-memory)", settings.memory_shares, whole);
+    }
     return settings.max_memory_bytes > 0 ? "--max-memory is " + whole
                                          : "there are " + whole + " to use (--max-memory)";
 }

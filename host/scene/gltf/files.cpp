@@ -184,22 +184,25 @@ bool links_out_of_folder(const fs::path& folder, const fs::path& relative) {
     return !error && leaves_folder(target.lexically_relative(root));
 }
 
+}  // namespace
+
+fs::path relative_path_of(const fs::path& folder, const std::string& uri) {
+    std::error_code ignored;
+    const fs::path undecoded = fs::path(uri).lexically_normal();
+    if (!leaves_folder(undecoded) && fs::exists(folder / undecoded, ignored)) return undecoded;
+    return fs::path(percent_decoded(uri)).lexically_normal();
+}
+
+namespace {
+
 fs::path path_of_uri(const UriBase& base, const std::string& uri, const std::string& where) {
     if (has_scheme(uri)) {
         throw Error(where + ": uri '" + shown_uri(uri) + "' is neither a data URI nor a file path");
     }
-    // Some writers do not encode URIs: a file with the undecoded name is preferred.
-    std::error_code ignored;
-    fs::path relative = uri;
-    if (leaves_folder(relative) ||
-        !fs::exists(base.folder / relative.lexically_normal(), ignored)) {
-        relative = percent_decoded(uri);
-    }
+    const fs::path relative = relative_path_of(base.folder, uri);
     if (relative.native().find('\0') != std::string::npos) {
         throw Error(where + ": uri '" + shown_uri(uri) + "' holds a zero byte");
     }
-    // A URI's ".." removes the name before it, whether that exists or not.
-    relative = relative.lexically_normal();
     if (!base.allow_outside_paths &&
         (leaves_folder(relative) || links_out_of_folder(base.folder, relative))) {
         throw Error(where + ": uri '" + shown_uri(uri) +

@@ -40,6 +40,11 @@ struct UriBase {
     bool allow_outside_paths = false;  // URIs and links may leave `folder`
 };
 
+/// The path within the scene file's folder that a URI names. Some writers do not encode URIs: a
+/// file with the undecoded name is preferred. ".." removes the name before it, whether that exists
+/// or not. May lead out of the folder, and need not exist.
+std::filesystem::path relative_path_of(const std::filesystem::path& folder, const std::string& uri);
+
 /// Bytes of a data URI, or of a file named by its percent-encoded path relative to the scene file.
 ///
 /// Throws Error that starts with "<base.file>: <where>: " when the URI has another scheme, leaves

@@ -177,6 +177,11 @@ const std::vector<std::string>& built_in_environment_names() {
     return names;
 }
 
+bool is_built_in_environment(std::string_view name) {
+    return std::ranges::find(built_in_environment_names(), name) !=
+           built_in_environment_names().end();
+}
+
 Environment environment_of(const std::string& name_or_file, std::uint64_t max_memory_bytes) {
     if (name_or_file == "studio") return studio_environment();
     if (name_or_file == "sky") return sky_environment();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host/scene/lights/environment.h"
@@ -20,6 +21,7 @@ Environment sky_environment();
 
 /// "studio", "sky".
 const std::vector<std::string>& built_in_environment_names();
+bool is_built_in_environment(std::string_view name);
 
 /// The built-in environment of that name, else the file's: read_environment().
 Environment environment_of(const std::string& name_or_file, std::uint64_t max_memory_bytes = 0);

@@ -117,9 +117,16 @@ class Survey {
         return end;
     }
 
+    // The first characters of a URI, without half of one.
+    static std::string_view head_of(std::string_view uri) {
+        std::size_t length = kNameLength;
+        while (length > 0 && (static_cast<unsigned char>(uri[length]) & 0xc0u) == 0x80u) --length;
+        return uri.substr(0, length);
+    }
+
     void add_data_uri(std::size_t begin, std::string_view text, std::size_t data) {
         DataUri uri;
-        uri.name = fmt::format("{}#{}", text.substr(0, kNameLength), out_.data.size());
+        uri.name = fmt::format("{}#{}", head_of(text), out_.data.size());
         try {
             unsigned char* place = bytes_ + begin + data;
             uri.bytes = {place, decode_base64(text.substr(data), place)};
