@@ -8,6 +8,7 @@
 #include "host/base/version.h"
 #include "host/measure/roofline/stage_report.h"
 #include "host/measure/roofline/stages.h"
+#include "host/picture/listed_lights.h"
 #include "present/cli/option_values.h"
 #include "present/video/video_file.h"
 
@@ -44,8 +45,7 @@ std::string stage_lines(const FrameStats& stats) {
 std::string light_line(const FrameStats& s) {
     std::string out = fmt::format("lights  {} of {} used, {} rejected", s.lights_used,
                                   s.lights_given, s.lights_rejected);
-    // Directional lights are in no list.
-    const bool listed = s.lights_used > s.directional_lights;
+    const bool listed = lists_lights(s);
     if (listed && s.evaluations_per_pixel >= 0.0) {
         out += fmt::format("; {:.1f} evaluated a pixel", s.evaluations_per_pixel);
     }

@@ -11,6 +11,7 @@
 #include "host/scene/gltf/choices.h"
 #include "host/scene/gltf/extensions.h"
 #include "host/scene/gltf/mesh/meshopt.h"
+#include "host/scene/gltf/used_parts.h"
 
 namespace kilolux {
 namespace {
@@ -48,12 +49,14 @@ std::optional<ByteSpan> read_buffer(GltfDocument& document, const json& buffer, 
 }
 
 // Takes the buffers out of the JSON.
-void read_buffers(GltfDocument& document, json& root, const GltfText& text) {
+void read_buffers(GltfDocument& document, json& root, const std::vector<bool>& used,
+                  const GltfText& text) {
     std::uint64_t total = text.json.size();
     if (root.contains("buffers")) {
         json& buffers = root.at("buffers");
         for (std::size_t i = 0; i < buffers.size(); ++i) {
-            document.buffers.push_back(read_buffer(document, buffers[i], i, text));
+            document.buffers.emplace_back();
+            if (used[i]) document.buffers.back() = read_buffer(document, buffers[i], i, text);
             buffers[i] = nullptr;
             total += document.buffers.back().value_or(ByteSpan{}).size();
         }
@@ -148,9 +151,11 @@ ByteSpan view_bytes(const GltfDocument& document, std::size_t index) {
     return buffer.subspan(view.byteOffset, view.byteLength);
 }
 
-void resolve_views(GltfDocument& document) {
+void resolve_views(GltfDocument& document, const std::vector<bool>& used) {
     for (std::size_t i = 0; i < document.model.bufferViews.size(); ++i) {
-        if (is_meshopt_compressed(document, i)) {
+        if (!used[i]) {
+            document.views.emplace_back();
+        } else if (is_meshopt_compressed(document, i)) {
             document.owned.push_back(decode_meshopt_view(document, i));
             document.views.emplace_back(document.owned.back());
         } else {
@@ -263,8 +268,10 @@ GltfDocument load_gltf_document(const std::filesystem::path& file, const LoadOpt
     GltfText text = read_gltf_text(file, document.base.file, charge_file);
     const MemoryCharge values =
         document.budget->borrow_memory(text.json.size(), document.base.file + ": JSON");
-    json root = parse_gltf_json(text.json, document.base.file);
-    read_buffers(document, root, text);
+    auto [root, broken_animations] = parse_gltf_json(text.json, document.base.file);
+    document.broken_animations = std::move(broken_animations);
+    const UsedParts used = used_parts(root);
+    read_buffers(document, root, used.buffers, text);
     if (text.has_binary) {
         document.owned.push_back(std::move(text.file));
     } else {
@@ -275,7 +282,7 @@ GltfDocument load_gltf_document(const std::filesystem::path& file, const LoadOpt
     check_extensions(document);
     apply_variant(document);
     document.clips = choose_clips(document);
-    resolve_views(document);
+    resolve_views(document, used.views);
     return document;
 }
 
