@@ -4,23 +4,31 @@
 #include <fmt/format.h>
 
 #include <CLI/Config.hpp>
+#include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "host/base/error.h"
 #include "host/base/suggest.h"
 #include "host/base/system/read_text.h"
+#include "host/base/text.h"
 #include "present/program.h"
 
 namespace kilolux {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Entries = std::vector<std::pair<std::string, std::string>>;  // option's name and text
+
+struct Entry {
+    std::string name;  // of the option
+    std::string text;  // of its value
+    int line = 0;      // 0: not known
+};
+using Entries = std::vector<Entry>;
 
 std::string value_text(const std::filesystem::path& file, const std::string& name,
                        const Json& value) {
@@ -37,16 +45,79 @@ std::string value_text(const std::filesystem::path& file, const std::string& nam
 }
 
 Entries json_entries(const std::filesystem::path& file, const std::string& text) {
-    std::vector<std::string> names;  // a parsed object has each name once
-    const auto note_name = [&names](int depth, Json::parse_event_t event, const Json& name) {
-        if (event == Json::parse_event_t::key && depth == 1) names.push_back(name);
+    // A parsed object has each name once, with its last value.
+    std::vector<std::pair<std::string, Json>> members;
+    const auto note_member = [&members](int depth, Json::parse_event_t event, const Json& value) {
+        using Event = Json::parse_event_t;
+        if (depth != 1) return true;
+        if (event == Event::key) members.emplace_back(value, nullptr);
+        const bool is_whole =
+            event == Event::value || event == Event::array_end || event == Event::object_end;
+        if (is_whole && !members.empty()) members.back().second = value;
         return true;
     };
-    const Json root = Json::parse(text, note_name, false, true);
+    const Json root = Json::parse(text, note_member, false, true);
     if (root.is_discarded()) throw UsageError(file.string() + ": is not valid JSON");
     Entries entries;
-    for (const std::string& name : names) {
-        entries.emplace_back(name, value_text(file, name, root.at(name)));
+    for (const auto& [name, value] : members) {
+        entries.push_back({name, value_text(file, name, value)});
+    }
+    return entries;
+}
+
+// Goes on with the brackets and strings of TOML in a line of a value.
+class TomlValue {
+ public:
+    bool is_open() const { return depth_ > 0 || quote_.size() == 3; }
+
+    // Returns the line without its comment.
+    std::string_view add(std::string_view line) {
+        if (quote_.size() == 1) quote_ = "";  // strings of one line end with it
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            const std::string_view rest = line.substr(i);
+            if (!quote_.empty()) {
+                if (rest[0] == '\\' && quote_[0] == '"') {
+                    ++i;
+                } else if (rest.starts_with(quote_)) {
+                    i += quote_.size() - 1;
+                    quote_ = "";
+                }
+            } else if (rest[0] == '"' || rest[0] == '\'') {
+                const std::string three(3, rest[0]);
+                quote_ = rest.starts_with(three) ? three : three.substr(2);
+                i += quote_.size() - 1;
+            } else if (rest[0] == '#') {
+                return line.substr(0, i);
+            } else {
+                depth_ += (rest[0] == '[') - (rest[0] == ']');
+            }
+        }
+        return line;
+    }
+
+ private:
+    int depth_ = 0;
+    std::string quote_;  // that ends the present string
+};
+
+// The names of a TOML text with their values as they are written: CLI11 joins the values of a name
+// that stands twice in a row.
+Entries written_entries(const std::string& text) {
+    Entries entries;
+    TomlValue value;
+    int number = 0;
+    for (const std::string_view line : split(text, '\n')) {
+        ++number;
+        const std::size_t equals = line.find('=');
+        if (value.is_open()) {
+            entries.back().text.append(" ").append(trim(value.add(line)));
+        } else if (const std::string_view start = trim(line);
+                   equals != line.npos && start.find_first_of("#[") != 0) {
+            std::string name(trim(line.substr(0, equals)));
+            std::erase_if(name, [](char c) { return c == '"' || c == '\''; });
+            const std::string_view text_of_value = trim(value.add(line.substr(equals + 1)));
+            entries.push_back({name, std::string(text_of_value), number});
+        }
     }
     return entries;
 }
@@ -60,7 +131,7 @@ Entries toml_entries(const std::filesystem::path& file, const std::string& text)
             throw UsageError(fmt::format("{}: [{}]: there are no sections", file.string(),
                                          joined(item.parents, ".")));
         }
-        entries.emplace_back(item.name, joined(item.inputs, ","));
+        entries.push_back({item.name, joined(item.inputs, ",")});
     }
     return entries;
 }
@@ -87,18 +158,26 @@ void apply(CLI::Option& option, const std::filesystem::path& file, const std::st
     option.run_callback();
 }
 
+void refuse_twice(const std::filesystem::path& file, const Entries& entries) {
+    std::map<std::string, std::string> seen;
+    for (const Entry& entry : entries) {
+        const auto [first, is_new] = seen.emplace(entry.name, entry.text);
+        if (is_new) continue;
+        const std::string line = entry.line > 0 ? fmt::format(":{}", entry.line) : "";
+        throw UsageError(fmt::format("{}{}: '{}' stands twice, as {} and {}; a list is an array",
+                                     file.string(), line, entry.name, first->second, entry.text));
+    }
+}
+
 }  // namespace
 
 void apply_config_file(CLI::App& command, const std::filesystem::path& file) {
     const std::string text = read_text(file);
     const bool is_json = trim(text).starts_with('{');
     const Entries entries = is_json ? json_entries(file, text) : toml_entries(file, text);
-    std::set<std::string> seen;
-    for (const auto& [name, value] : entries) {
-        if (!seen.insert(name).second) {
-            throw UsageError(fmt::format("{}: '{}' stands twice", file.string(), name));
-        }
-        apply(option_of(command, file, name), file, name, value);
+    refuse_twice(file, is_json ? entries : written_entries(text));
+    for (const Entry& entry : entries) {
+        apply(option_of(command, file, entry.name), file, entry.name, entry.text);
     }
 }
 

@@ -57,7 +57,7 @@ std::string option_head(const CLI::Option& option) {
     std::vector<std::string> names;
     for (const std::string& name : option.get_lnames()) names.push_back("--" + name);
     for (const std::string& name : option.get_snames()) names.push_back("-" + name);
-    const std::string head = joined(names);
+    std::string head = joined(names);
     if (option.get_items_expected_max() == 0) return head;
     // Words that have a row each are not listed twice.
     const bool described = option.get_description().find('\n') != std::string::npos;

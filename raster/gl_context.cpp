@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "host/base/error.h"
+#include "host/base/system/memory.h"
 #include "host/base/text.h"
 
 namespace kilolux {
@@ -144,6 +145,11 @@ bool has_egl() {
 
 // Throws where EGL is missing: the loader of OpenGL's functions would end the program.
 void require_egl() {
+    // Mesa 22 with llvmpipe takes 530 MiB up to its first pictures. With less, LLVM aborts.
+    constexpr std::uint64_t kAddressSpace = std::uint64_t{720} << 20;
+    static bool started = false;
+    if (!started) require_address_space(kAddressSpace, "OpenGL's driver");
+    started = true;
     if (has_egl()) return;
     throw Error(
         "EGL: libEGL.so.1 cannot be loaded, and so nothing drawn by OpenGL; Debian's "

@@ -103,6 +103,12 @@ std::vector<cl::Device> all_devices() {
     // Drivers start here. To a second thread PoCL 3.1 says meanwhile that it has no device.
     static std::mutex starting;
     const std::scoped_lock lock(starting);
+    static bool started = false;
+    // PoCL 3.1 with LLVM 14 takes 412 MiB to build the programs of a picture. With less it crashes,
+    // or waits for ever for a lock that a failed build has left.
+    constexpr std::uint64_t kAddressSpace = std::uint64_t{576} << 20;
+    if (!started) require_address_space(kAddressSpace, "OpenCL's driver");
+    started = true;
     std::vector<cl::Platform> platforms;
     try {
         cl::Platform::get(&platforms);

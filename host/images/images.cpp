@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 
 #include "host/base/error.h"
+#include "host/base/system/memory.h"
 #include "host/images/library.h"
 
 namespace kilolux {
@@ -12,6 +13,10 @@ namespace {
 // Looked for beside the program, then where it is installed: CMAKE_BUILD_RPATH,
 // CMAKE_INSTALL_RPATH.
 const ImageLibrary& load() {
+    // The 260 libraries of OpenImageIO 2.4, with two cores. With less, their start crashes or never
+    // ends.
+    constexpr std::uint64_t kAddressSpace = std::uint64_t{456} << 20;
+    require_address_space(kAddressSpace, "the library of images");
     void* const library = dlopen(KILOLUX_IMAGES_FILE, RTLD_LAZY | RTLD_LOCAL);
     void* const table = library == nullptr ? nullptr : dlsym(library, "kilolux_images");
     if (table == nullptr)

@@ -61,6 +61,9 @@ std::vector<unsigned char> encode_pixels(const std::string& name, const std::str
                                          std::span<const unsigned char> pixels,
                                          std::size_t pixel_stride);
 
+/// Formats code at most so many rows at once: OpenEXR's piz, and OpenImageIO's TIFF.
+inline constexpr int kFileBlockRows = 32;
+
 /// A file of an image that is written from the top down. Nothing is complete before close().
 class ImageWriter {
  public:
@@ -75,8 +78,8 @@ class ImageWriter {
 };
 
 /// Writes the bytes of encode_pixels() to `file`, an open descriptor at its beginning, which must
-/// outlive the writer. Where all writes but the last are of whole blocks of 32 rows, the bytes are
-/// the same. Throws Error as encode_pixels(), and with the system's reason.
+/// outlive the writer. Where all writes but the last are of whole blocks of kFileBlockRows, the
+/// bytes are the same. Throws Error as encode_pixels(), and with the system's reason.
 std::unique_ptr<ImageWriter> open_writer(const std::string& name, const std::string& format,
                                          const ImageLayout& layout, int file);
 

@@ -42,7 +42,7 @@ Radiance ForwardShading::draw(const Sample& sample, const HostCoarseLists* lists
     const RenderSettings& settings = context_.settings;
     const View view = view_of(sample.camera, settings.width, settings.height);
     const std::size_t size = std::size_t{3} * view.stride * view.height;
-    const Radiance radiance{radiance_.reserve(size), view};
+    Radiance radiance{radiance_.reserve(size), view};
     std::vector<float> background;
     if (settings.background) {
         environment.fill(radiance, out.timer);

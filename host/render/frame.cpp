@@ -28,8 +28,7 @@ LightInput place_lights(Pipeline& p, const Shot& shot, FrameStats& stats) {
     const Clock::time_point start = Clock::now();
     p.lights.update(shot.time, shot.camera, stats);
     p.timer.record_host(kLightInputStage, ms_since(start));
-    const LightInput input =
-        p.lights.input(shot.camera.position, !context.settings.no_reuse, p.timer);
+    LightInput input = p.lights.input(shot.camera.position, !context.settings.no_reuse, p.timer);
     if (!context.lights_on_host()) return input;
     const Clock::time_point rows_start = Clock::now();
     p.last.rows = p.lights.rows(shot.camera.position);
@@ -129,12 +128,17 @@ LightInput begin(Pipeline& p, const Shot& shot, Frame& frame, FrameStats& stats)
     p.last.camera = shot.camera;
     const PictureKey key{context.settings, shot.camera, shot.time,
                          context.scene->scene().revisions};
-    // OpenGL's targets hold the tile that further rows of the same picture need.
-    if (!shot.rows || !(key == p.samples.key())) p.last.raster_tile = -1;
+    // OpenGL's targets hold the tile that further rows of the same picture need, before any
+    // background.
+    PictureKey drawn = key;
+    drawn.settings.background.reset();
+    drawn.settings.want = {};
+    if (!shot.rows || !(drawn == p.last.drawn)) p.last.raster_tile = -1;
+    p.last.drawn = std::move(drawn);
     p.samples.begin(key, context.is_whole() ? shot.samples : 0);
     p.picture.begin(shot.display, frame, shot.rows.has_value());
     stats.zero_normals = context.scene->zero_normals();
-    const LightInput lights = place_lights(p, shot, stats);
+    LightInput lights = place_lights(p, shot, stats);
     stats.frame_ms += ms_since(start);
     return lights;
 }

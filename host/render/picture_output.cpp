@@ -33,12 +33,17 @@ void PictureOutput::resize(Frame& frame, Band rows, bool shown_only, bool by_row
     frame.first_row = rows.first_row;
     const auto pixels =
         static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
-    if (want.display && !shown_only) frame.display.resize(4 * pixels);
+    Frame spare = spares_->take();
+    const auto give = [&spare](auto Frame::*member, Frame& to, std::size_t values) {
+        to.*member = std::move(spare.*member);
+        (to.*member).resize(values);
+    };
+    if (want.display && !shown_only) give(&Frame::display, frame, 4 * pixels);
     const bool whole = needs_whole_picture(settings);
     if ((want.radiance && !shown_only) || want.view == ViewKind::difference || (by_rows && whole)) {
-        frame.radiance.resize(3 * pixels);
+        give(&Frame::radiance, frame, 3 * pixels);
     }
-    if (want.shown_light && whole) frame.shown_light.resize(3 * pixels);
+    if (want.shown_light && whole) give(&Frame::shown_light, frame, 3 * pixels);
 }
 
 void PictureOutput::begin(DisplayMemory memory, Frame& frame, bool by_rows) {

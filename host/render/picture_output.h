@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "host/base/spares.h"
 #include "host/picture/frame_reader.h"
 #include "host/render/lit_band.h"
 #include "host/render/render_context.h"
@@ -58,6 +60,9 @@ class PictureOutput {
     /// See Renderer::display_memory().
     DisplayMemory display_memory();
 
+    /// See Renderer::spare_frames().
+    std::shared_ptr<Spares<Frame>> spares() const { return spares_; }
+
  private:
     bool is_written_by_device() const { return context_.gpu.info.is_cpu && !memory_.empty(); }
     bool waits_for_bands() const {
@@ -73,6 +78,7 @@ class PictureOutput {
     Backdrop backdrop_;
     GrowingArray<float> whole_light_;  // of all bands, where a stage mixes them
     FrameReader reader_;
+    std::shared_ptr<Spares<Frame>> spares_ = std::make_shared<Spares<Frame>>();
     PinnedMemory shown_;            // display_memory() of a device with memory of its own
     std::vector<uint> host_shown_;  // else
     // Of the frame.

@@ -137,6 +137,10 @@ LitSurfaces Renderer::lit_surfaces() {
                     [&] { return pipeline_->reader.lit_surfaces(pipeline_->last_sample()); });
 }
 
+std::shared_ptr<Spares<Frame>> Renderer::spare_frames() const {
+    return pipeline_->picture.spares();
+}
+
 std::span<uint> Renderer::display_memory() {
     return in_stage("display memory", [&] { return pipeline_->picture.display_memory(); });
 }

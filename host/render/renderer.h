@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "host/base/spares.h"
 #include "host/gpu/device.h"
 #include "host/picture/bands.h"
 #include "host/picture/decoded_surfaces.h"
@@ -103,6 +104,10 @@ class Renderer {
     /// When all rows are made: adds what needs the whole picture, as bloom. One of the renderers
     /// does it; picture.frame, but for its stats, then is render()'s.
     FrameStats finish_rows(SharedPicture& picture, const Camera& camera, double time);
+
+    /// Gets frames of render() and render_strip() that are done with: further ones take their
+    /// memory. Outlives the renderer.
+    std::shared_ptr<Spares<Frame>> spare_frames() const;
 
     /// Memory for render_to() that the device copies to at the full rate of its bus. Valid until it
     /// is asked for again or change().

@@ -124,9 +124,10 @@ struct RenderSettings {
     std::vector<std::string>
         force_features;  // compiled in although the scene lacks them; see forceable_features()
     std::uint64_t max_memory_bytes =
-        0;               // that a renderer may take in all; 0: most of what is available
-    int band_rows = 0;   // made at once at most, a multiple of FINE_TILE; 0: what memory allows
-    std::string device;  // name, part of it, or index; empty: the best
+        0;                  // that renderers may take in all; 0: most of what is available
+    int memory_shares = 1;  // renderers that take equal parts of it
+    int band_rows = 0;      // made at once at most, a multiple of FINE_TILE; 0: what memory allows
+    std::string device;     // name, part of it, or index; empty: the best
     // That device, open: renderers that share it build a program once. None: each opens its own.
     std::shared_ptr<const Gpu> opened;
     bool operator==(const RenderSettings&) const = default;

@@ -171,7 +171,7 @@ GBuffer SurfacePass::resolve(const DeviceArray<uint>& drawn, const SurfaceBuffer
                              const View& view, const Sample& sample, Measured out) {
     const DeviceArray<uint> ids =
         sample.needed ? mask_->enqueue(sample.needed->done, view, drawn, out.timer) : drawn;
-    const GBuffer gbuffer = resolve_->enqueue(
+    GBuffer gbuffer = resolve_->enqueue(
         ids, scene, make_gbuffer_layout(context_.plan.gbuffer, view.stride, view.height), view,
         out.timer);
     if (context_.settings.want.counts) count(ids, scene, view, out.stats);

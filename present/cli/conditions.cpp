@@ -9,7 +9,7 @@
 #include "host/base/error.h"
 #include "host/base/hash.h"
 #include "host/base/version.h"
-#include "host/scene/gltf/files.h"
+#include "host/scene/gltf/json/json_text.h"
 #include "present/cli/commit.h"
 
 namespace kilolux {
@@ -18,11 +18,17 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+bool is_file(const fs::path& file) {
+    std::error_code error;
+    return fs::is_regular_file(file, error);
+}
+
 // Name, size and hash of a file, read piece by piece.
 std::string file_line(const fs::path& file) {
     constexpr std::size_t kPiece = 1 << 20;
-    std::ifstream in(file, std::ios::binary);
-    if (!in) return file.filename().string() + " missing\n";
+    std::ifstream in;
+    if (is_file(file)) in.open(file, std::ios::binary);  // a pipe or a device may have no end
+    if (!in.is_open()) return file.filename().string() + " missing\n";
     std::string piece(kPiece, '\0'), hashes;
     std::uint64_t size = 0;
     do {
@@ -34,33 +40,56 @@ std::string file_line(const fs::path& file) {
     return fmt::format("{} {} {}\n", file.filename().string(), size, hash_text(hashes));
 }
 
-// The JSON of a .gltf or .glb file; discarded if there is none.
-nlohmann::json document_of(const fs::path& file) {
-    try {
-        return nlohmann::json::parse(read_gltf_text(file, file.string()).json, nullptr, false);
-    } catch (const Error&) {
-        return nlohmann::json::value_t::discarded;
-    }
-}
+// The uris of a glTF file that name files, in the file's order. Keeps no other value.
+class NamedFiles : public nlohmann::json_sax<nlohmann::json> {
+ public:
+    const std::vector<std::string>& uris() const { return uris_; }
 
-// Lines of all files that a glTF document names.
-std::string named_files(const nlohmann::json& document, const fs::path& folder) {
-    if (!document.is_structured()) return "";
+    bool null() override { return true; }
+    bool boolean(bool) override { return true; }
+    bool number_integer(number_integer_t) override { return true; }
+    bool number_unsigned(number_unsigned_t) override { return true; }
+    bool number_float(number_float_t, const string_t&) override { return true; }
+    bool binary(binary_t&) override { return true; }
+    bool start_object(std::size_t) override { return true; }
+    bool end_object() override { return true; }
+    bool start_array(std::size_t) override { return of_uri_ = false, true; }
+    bool end_array() override { return true; }
+    bool key(string_t& name) override {
+        of_uri_ = name == "uri";
+        return true;
+    }
+    bool string(string_t& value) override {
+        if (of_uri_ && !is_data_uri(value)) uris_.push_back(std::move(value));
+        return true;
+    }
+    bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception&) override {
+        uris_.clear();
+        return false;
+    }
+
+ private:
+    bool of_uri_ = false;  // the last key was "uri"
+    std::vector<std::string> uris_;
+};
+
+// Lines of all files that a .gltf or .glb file names; none if it is no such file.
+std::string named_files(const fs::path& file) {
+    NamedFiles named;
+    try {
+        Bytes bytes = read_gltf_json(file);
+        const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+        const JsonText json = survey_json(bytes, text, [](std::uint64_t) {});
+        if (json.depth <= kDeepestJson) nlohmann::json::sax_parse(json.text, &named);
+    } catch (const Error&) {
+        return "";
+    }
     std::string out;
-    for (const auto& [name, value] : document.items()) {
-        if (name != "uri" || !value.is_string()) {
-            out += named_files(value, folder);
-            continue;
-        }
-        const std::string uri = value;
-        if (!uri.starts_with("data:")) out += file_line(folder / percent_decoded(uri));
+    for (const std::string& uri : named.uris()) {
+        const fs::path folder = file.parent_path();
+        out += file_line(folder / (is_file(folder / uri) ? uri : percent_decoded(uri)));
     }
     return out;
-}
-
-bool is_file(const std::string& name) {
-    std::error_code error;
-    return fs::is_regular_file(name, error);
 }
 
 Json camera_json(const Camera& camera) {
@@ -76,14 +105,23 @@ Json camera_json(const Camera& camera) {
 
 }  // namespace
 
-std::string scene_content(const SharedOptions& shared) {
-    std::string text = shared.scene;
+std::string input_content(const SharedOptions& shared, const std::vector<fs::path>& more) {
+    std::string text;
     if (is_file(shared.scene)) {
         const fs::path file = fs::canonical(shared.scene);
-        text = file_line(file) + named_files(document_of(file), file.parent_path());
+        text = file_line(file) + named_files(file);
     }
-    if (is_file(shared.environment)) text += file_line(shared.environment);
-    return is_file(shared.scene) || is_file(shared.environment) ? hash_text(text) : text;
+    std::vector<fs::path> others = more;
+    others.insert(others.begin(), shared.environment);
+    for (const fs::path& file : others) {
+        if (is_file(file)) text += file_line(file);
+    }
+    return text.empty() ? "" : hash_text(text);
+}
+
+std::string scene_content(const SharedOptions& shared) {
+    const std::string files = input_content(shared);
+    return files.empty() ? shared.scene : files;
 }
 
 Json value_json(const Setting& setting) {

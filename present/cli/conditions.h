@@ -3,16 +3,22 @@
 // choices of --max-error.
 #pragma once
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "present/cli/options.h"
 
 namespace kilolux {
 
 /// A text that changes with the content of the options' files: the scene's file, every file that it
-/// names (buffers, images, IES profiles), and the environment. For a generated scene it is the
-/// name. The folder does not matter.
+/// names (buffers, images, IES profiles), the environment, and `more`. Empty where there is none.
+/// The folder does not matter.
+std::string input_content(const SharedOptions& shared,
+                          const std::vector<std::filesystem::path>& more = {});
+
+/// input_content(); of a generated scene without files its name.
 std::string scene_content(const SharedOptions& shared);
 
 /// A value as a JSON number, true or false where it is one, else as its text.

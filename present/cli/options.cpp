@@ -5,6 +5,7 @@
 #include "host/base/text.h"
 #include "host/render/plan/settings_check.h"
 #include "present/cli/option_builder.h"
+#include "present/cli/scene_choice.h"
 
 namespace kilolux {
 namespace {
@@ -29,6 +30,7 @@ void begin_command(const SharedOptions& options, bool compares) {
               "--show error: needs --reference FILE, which render takes");
     check_settings(options.settings);
     if (options.reflections) check_reflections(options);
+    check_environment(options.environment);
     refuse_if(
         options.rig == Rig::swarm && options.lights_given && options.settings.lights.count == 0,
         "--rig swarm: needs lights, and --lights is 0");

@@ -88,8 +88,8 @@ std::string option_words(const std::vector<Setting>& settings, const std::vector
 /// Registers the shared options.
 void add_shared_options(CLI::App& command, SharedOptions& options);
 
-/// Sets the verbosity. Throws UsageError for shared options that exclude or need each other;
-/// `compares`: the command line has --reference.
+/// Sets the verbosity. Throws UsageError for shared options that exclude or need each other, Error
+/// for an environment file that is not there; `compares`: the command line has --reference.
 void begin_command(const SharedOptions& options, bool compares = false);
 
 /// Throws UsageError for options that exclude or need each other.

@@ -102,11 +102,11 @@ void visit_sequence(const SettingVisitor& f, OutputOptions& o) {
                "metres and degrees: a smooth way through them",
                kPicture},
               o.camera_keys)
-        .flag(
-            "--skip-existing", o.skip_existing,
-            "Skip frames whose file holds this picture already, by its size and notes, or a video "
-            "that holds these frames. Another picture there is an error; an unreadable file is "
-            "made again");
+        .flag("--skip-existing", o.skip_existing,
+              "Skip frames whose file holds this picture already, by its size and notes of command "
+              "and "
+              "input files, or a video that holds these frames. Another picture there is an error; "
+              "an unreadable file is made again");
 }
 
 void visit_comparison(const SettingVisitor& f, OutputOptions& o) {

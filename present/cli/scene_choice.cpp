@@ -154,18 +154,6 @@ std::string tails_line(const Scene& scene, const RenderSettings& settings, bool 
                       settings.range_budget);
 }
 
-Environment opened_environment(const std::string& name) {
-    const std::vector<std::string>& built_in = built_in_environment_names();
-    const std::filesystem::path file(name);
-    const bool is_name = std::ranges::find(built_in, name) != built_in.end();
-    if (is_name || std::filesystem::exists(file)) return environment_of(name);
-    if (file.has_extension() || file.has_parent_path()) {
-        throw Error(name + ": no such environment file");
-    }
-    throw UsageError(fmt::format("--environment '{}' is no file, and none of {}{}", name,
-                                 joined(built_in), did_you_mean(name, built_in)));
-}
-
 // Sets options.shown_background, too.
 std::string add_environment(SharedOptions& options, AnimatedScene& scene) {
     using Kind = BackgroundChoice::Kind;
@@ -175,7 +163,8 @@ std::string add_environment(SharedOptions& options, AnimatedScene& scene) {
             Environment{1, 1, {background.color}, background.as_shown});
     }
     if (options.environment.empty()) return "";
-    Environment environment = opened_environment(options.environment);
+    check_environment(options.environment);
+    Environment environment = environment_of(options.environment);
     std::string line = fmt::format("; environment {}: ", options.environment);
     if (options.reflections) {
         options.maps =
@@ -223,6 +212,18 @@ std::string choose_tone_curve(SharedOptions& options, const Scene& scene) {
 
 }  // namespace
 
+void check_environment(const std::string& name) {
+    const std::vector<std::string>& built_in = built_in_environment_names();
+    const std::filesystem::path file(name);
+    const bool is_name = std::ranges::find(built_in, name) != built_in.end();
+    if (name.empty() || is_name || std::filesystem::exists(file)) return;
+    if (file.has_extension() || file.has_parent_path()) {
+        throw Error(name + ": no such environment file");
+    }
+    throw UsageError(fmt::format("--environment '{}' is no file, and none of {}{}", name,
+                                 joined(built_in), did_you_mean(name, built_in)));
+}
+
 AnimatedScene open_animated_scene(const SharedOptions& options) {
     if (is_generated_scene(options.scene)) {
         check_generated(options);
@@ -231,7 +232,9 @@ AnimatedScene open_animated_scene(const SharedOptions& options) {
     std::optional<Progress> bar;
     LoadOptions load = options.load;
     load.time = options.time;
-    load.max_memory_bytes = options.settings.max_memory_bytes;
+    const RenderSettings& settings = options.settings;
+    load.max_memory_bytes =
+        settings.memory_shares > 1 ? memory_limit(settings) : settings.max_memory_bytes;
     return AnimatedScene(scene_file(options.scene), load, [&](std::size_t done, std::size_t total) {
         if (!bar) bar.emplace("loading images", total, !options.quiet);
         if (done > 0) bar->advance();

@@ -6,6 +6,10 @@
 
 namespace kilolux {
 
+/// Throws Error for an environment file that is not there, UsageError for another text that is no
+/// name of a built-in one.
+void check_environment(const std::string& name);
+
 /// The scene of the options at their time, for other times, too: a generated one by name, else the
 /// file of that path. Call light_scene() next. Throws UsageError for a text that is neither a name
 /// nor looks like a file, Error if the file fails.

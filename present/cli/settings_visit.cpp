@@ -15,7 +15,7 @@ namespace {
 // A new member does not compile here: add a row below, then its name. Members without a row are set
 // elsewhere: by the renderer (opened, background, reflections), by tests (force_features,
 // band_rows, kernels.chunks, kernels.group_height), and by the window and the commands
-// (grid.fine_per_octave and the rest of want).
+// (grid.fine_per_octave, memory_shares and the rest of want).
 void count_members(SharedOptions& options) {
     [[maybe_unused]] auto& [scene, load, settings, rig, environment, background, shown_background,
                             reflections, maps, shows_environment, compares_renderers,
@@ -29,7 +29,7 @@ void count_members(SharedOptions& options) {
                             gbuffer, geometry, anisotropy, no_reuse, shading, shadows, shadow_rays,
                             ambient, backdrop, mirrored, bloom, exposure, tone_curve, samples,
                             auto_samples, want, grid, kernels, force_features, max_memory_bytes,
-                            band_rows, device, opened] = settings;
+                            memory_shares, band_rows, device, opened] = settings;
     [[maybe_unused]] auto& [count, light_seed, radius, intensity, box] = lights;
     [[maybe_unused]] auto& [on, error, most] = auto_samples;
     [[maybe_unused]] auto& [display, radiance, shown_light, counts, shadow_counts, view, aovs,

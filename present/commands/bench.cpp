@@ -5,6 +5,7 @@
 
 #include "host/base/error.h"
 #include "host/base/system/atomic_write.h"
+#include "host/render/plan/settings_check.h"
 #include "present/cli/scene_choice.h"
 #include "present/cli/stats_json.h"
 #include "present/program.h"
@@ -33,6 +34,9 @@ void run_bench(BenchOptions& options) {
     if (!options.tables.empty()) {
         std::fputs(results_text(options.tables).c_str(), stdout);
         return;
+    }
+    for (const SweepPoint& point : bench_points(options)) {
+        check_settings(settings_at(options.shared.settings, point));
     }
     make_output_folder(options.output);
     if (options.tune) return run_tuning(options);

@@ -93,9 +93,10 @@ void measure_job(const BenchOptions& bench, int warm_up, JobRow& job, const OnRe
     for (int i = 0; i < warm_up; ++i) pictures->render(options.shared.time);
     job.job_s = seconds_of([&] { render_tasks(options, tasks, 0, *pictures, start, {}); });
     job.file_bytes = file_bytes_in(folder.path());
+    const auto frames = pictures->renderer().spare_frames();
     job.frames_s = seconds_of([&] {
         for (std::size_t i = 0; i < tasks.size(); ++i) {
-            pictures->render(tasks[i].time, tasks[i].frame);
+            frames->give(pictures->render(tasks[i].time, tasks[i].frame));
         }
     });
 }

@@ -4,12 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <optional>
+#include <vector>
 
 #include "host/base/error.h"
 #include "host/base/log.h"
 #include "host/base/text.h"
 #include "host/images/images.h"
+#include "present/cli/conditions.h"
+#include "present/image/display_picture.h"
 #include "present/image/image_file.h"
 #include "present/video/read_video.h"
 #include "present/video/video_file.h"
@@ -56,6 +60,14 @@ std::string picture_command(const RenderOptions& options) {
                       option_words(settings_of(noted), settings_of(defaults), Changes::picture);
     std::ranges::replace(out, '\n', ' ');  // a note is one line
     return out;
+}
+
+std::string inputs_comment(const RenderOptions& options) {
+    std::vector<std::filesystem::path> more = {options.output.camera_keys};
+    const char* ocio = std::getenv("OCIO");
+    if (ocio != nullptr && uses_ocio(options.output.ocio)) more.emplace_back(ocio);
+    const std::string content = input_content(options.shared, more);
+    return content.empty() ? "" : " # input files " + content;
 }
 
 bool is_made(const WantedPicture& wanted) {

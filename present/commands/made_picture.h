@@ -14,6 +14,10 @@ namespace kilolux {
 /// the output's name; a picture notes it.
 std::string picture_command(const RenderOptions& options);
 
+/// A comment behind the command that changes with the content of its input files; empty where it
+/// has none.
+std::string inputs_comment(const RenderOptions& options);
+
 /// A picture that may be in a file already.
 struct WantedPicture {
     std::filesystem::path file;

@@ -34,31 +34,45 @@ std::vector<float> covered_colours(const RenderOptions& options, const Frame& fr
     return whole;
 }
 
-// Codes a picture; the result writes it to its file, or appends it to the video.
+// Writes a file beside its place, and has the disk take it; the result puts it there. So files are
+// written at once, and appear in their order. A pipe gets its bytes in this order, too.
+OrderedWriter::Write placed(const fs::path& file, std::vector<unsigned char> bytes) {
+    if (is_special(file)) {
+        return [file, bytes = std::move(bytes)] { write_atomically(file, bytes); };
+    }
+    const auto out = std::make_shared<AtomicFile>(file);
+    out->write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    begin_flush(out->descriptor());
+    return [out] { out->commit(); };
+}
+
+// Codes a picture; the result puts it in its place, or appends it to the video.
 OrderedWriter::Write coded(const RenderOptions& options, RenderedPicture& picture,
                            VideoFile* video) {
     const ImageOptions image = image_options(options, picture);
     const PictureTask& task = picture.task;
     OrderedWriter::Write write_difference = [] {};
     if (picture.difference) {
-        write_difference = [file = task.difference,
-                            bytes = encode_image(task.difference, *picture.difference, {},
-                                                 ImageOptions{options.output.encoding})] {
-            write_atomically(file, bytes);
-        };
+        write_difference =
+            placed(task.difference, encode_image(task.difference, *picture.difference, {},
+                                                 ImageOptions{options.output.encoding}));
     }
     if (video != nullptr) {
         if (!image.display.empty()) set_display(picture.frame, image.display);
-        return [video, write_difference, bytes = y4m_frame(picture.frame.display)] {
+        std::string bytes = video->spares().take();
+        y4m_frame(picture.frame.display, bytes);
+        return [video, write_difference, bytes = std::move(bytes)]() mutable {
             write_difference();
             video->write(bytes);
+            video->spares().give(std::move(bytes));
         };
     }
-    return [file = task.file, write_difference,
-            bytes = encode_image(task.file, picture.frame, picture.notes, image)] {
-        write_difference();
-        write_atomically(file, bytes);
-    };
+    return
+        [write_difference,
+         write = placed(task.file, encode_image(task.file, picture.frame, picture.notes, image))] {
+            write_difference();
+            write();
+        };
 }
 
 void count(WrittenPictures& made, FrameRecord record) {
@@ -88,6 +102,12 @@ std::size_t bytes_of(const Frame& frame) {
 }
 
 }  // namespace
+
+RenderedPicture::~RenderedPicture() {
+    if (!spares) return;
+    frame.aovs.clear();
+    spares->give(std::move(frame));
+}
 
 // The renderer's display picture has 8 bits and our tone curves; other pictures are made here.
 ImageOptions image_options(const RenderOptions& options, const RenderedPicture& picture) {

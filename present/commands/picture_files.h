@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "host/base/spares.h"
 #include "host/render/renderer.h"
 #include "present/cli/options.h"
 #include "present/cli/progress.h"
@@ -25,7 +26,7 @@ struct RenderOptions {
     OutputOptions output;
     BudgetOptions budget;
     bool has_alpha = false;  // the picture: see wants_alpha()
-    std::string command{};   // picture_command() of what was asked for
+    std::string command{};   // picture_command() of what was asked for, and inputs_comment()
     bool operator==(const RenderOptions&) const = default;
 };
 
@@ -40,13 +41,19 @@ struct PictureTask {
     std::filesystem::path difference;  // empty: none
 };
 
-/// A picture that is rendered, until it is written.
+/// A picture that is rendered, until it is written. Then its frame goes to the spares.
 struct RenderedPicture {
+    RenderedPicture() = default;
+    RenderedPicture(RenderedPicture&&) = default;
+    RenderedPicture& operator=(RenderedPicture&&) = default;
+    ~RenderedPicture();
+
     PictureTask task;
     Frame frame;
     ImageNotes notes;
-    std::vector<float> alpha;         // empty: it has none
-    std::optional<Frame> difference;  // to the reference
+    std::vector<float> alpha;               // empty: it has none
+    std::optional<Frame> difference;        // to the reference
+    std::shared_ptr<Spares<Frame>> spares;  // of its renderer; null: none
 };
 
 /// A summary of the pictures written so far.

@@ -40,6 +40,7 @@ RenderedPicture StripsJob::make(Renderer& renderer, Band rows) const {
     RenderedPicture out;
     take_settings(renderer, settings_);
     out.frame = renderer.render_strip(camera_, time_, rows);
+    out.spares = renderer.spare_frames();
     if (!has_alpha_) return out;
     take_settings(renderer, before_white(settings_));
     out.alpha = coverage_of(out.frame, renderer.render_strip(camera_, time_, rows));

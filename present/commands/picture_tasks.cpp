@@ -8,7 +8,6 @@
 #include <exception>
 #include <functional>
 #include <memory>
-#include <thread>
 #include <utility>
 
 #include "host/base/error.h"
@@ -202,6 +201,7 @@ void make_picture(const Job& job, SceneRenderer& pictures, DeviceShare& share, s
     FrameRecord record = render_task(job.options, pictures, *picture, [&](RenderedPicture& made) {
         const PictureTask& task = made.task;
         made.frame = on_device([&] { return pictures.render(task.time, task.frame); });
+        made.spares = pictures.renderer().spare_frames();
         if (!job.options.has_alpha) return;
         made.alpha =
             on_device([&] { return pictures.coverage(made.frame, task.time, task.frame); });
@@ -337,21 +337,13 @@ MadePictures render_tasks(const RenderOptions& options, const PictureTasks& task
     std::vector<DeviceShare> shares(1);
     if (count > 1) shares = shares_of(devices);
     std::atomic<std::size_t> left = count;
-    const auto fail = [&queue](std::exception_ptr failure) { queue.fail(std::move(failure)); };
-    std::vector<std::jthread> threads;
-    for (std::size_t i = 1; i < count; ++i) {
-        threads.emplace_back([&, i] {
-            run_share(shares[i], left, fail, [&] {
-                SharedOptions own = options.shared;
-                own.settings.device = devices[i];
-                SceneRenderer renderer(own, options.budget, start);
-                make_pictures(job, renderer, shares[i]);
-            });
-        });
-    }
-    run_share(shares[0], left, fail, [&] { make_pictures(job, pictures, shares[0]); });
-    threads.clear();  // waits for them
-    queue.rethrow();
+    run_shares(shares, left, queue, [&](std::size_t i) {
+        if (i == 0) return make_pictures(job, pictures, shares[0]);
+        SharedOptions own = options.shared;
+        own.settings.device = devices[i];
+        SceneRenderer renderer(own, options.budget, start);
+        make_pictures(job, renderer, shares[i]);
+    });
     if (count == 1) shares.clear();
     return {files.finish(), std::move(shares)};
 }

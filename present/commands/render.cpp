@@ -6,7 +6,6 @@
 #include "host/base/error.h"
 #include "host/base/log.h"
 #include "host/base/system/atomic_write.h"
-#include "host/base/system/memory.h"
 #include "host/render/whole_picture.h"
 #include "present/cli/frame_summary.h"
 #include "present/cli/option_builder.h"
@@ -117,16 +116,6 @@ std::vector<std::string> take_devices(RenderOptions& options) {
     return devices;
 }
 
-// Gives each of several devices its share of the bound, or of most of what is available.
-void share_memory(RenderSettings& settings, std::size_t devices) {
-    constexpr double kMost = 0.8;  // as plan_memory() has it
-    std::uint64_t& bytes = settings.max_memory_bytes;
-    if (bytes == 0) {
-        bytes = static_cast<std::uint64_t>(kMost * static_cast<double>(available_memory_bytes()));
-    }
-    bytes /= devices;
-}
-
 // Renders and writes the pictures from `begin` on.
 void render_from(RenderOptions& options, const PictureTasks& tasks, std::size_t begin,
                  const std::vector<std::string>& more_devices) {
@@ -154,7 +143,11 @@ void render_from(RenderOptions& options, const PictureTasks& tasks, std::size_t 
             return made;
         };
     }
-    if (!more_devices.empty()) share_memory(options.shared.settings, 1 + more_devices.size());
+    if (!more_devices.empty()) {
+        RenderSettings& settings = options.shared.settings;
+        settings.max_memory_bytes = memory_limit(settings);  // is one for all
+        settings.memory_shares += static_cast<int>(more_devices.size());
+    }
     SceneRenderer pictures(options.shared, options.budget, start);
     if (helpers != nullptr) helpers->wait_until_ready();
     note(pictures.rig_lines());  // before the frames, which may take minutes
@@ -173,6 +166,7 @@ void run_render(RenderOptions& options) {
     options.has_alpha = wants_alpha(options);  // lighting the scene may change the background
     begin_command(options.shared, !out.reference.empty());
     check_budget(options.shared, options.budget);
+    options.command += inputs_comment(options);
     const PictureTasks tasks(options);
     if (tasks.size() == 0) {
         return note(fmt::format("nothing to render: shard {}/{} has none of the frames {}:{}",

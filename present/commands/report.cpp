@@ -47,7 +47,7 @@ struct Report {
     nlohmann::ordered_json context;
     std::string caption;  // scene, lights, sizes, device, for pictures
     std::vector<ReportRow> rows;
-    std::vector<ReportShare> shares;  // of several devices
+    std::vector<DeviceShare> shares;  // of several devices
     bool plots = false;               // are written
 };
 
@@ -82,7 +82,7 @@ void measure(const ReportOptions& options, const ReportView& view, ReportRun& ru
         auto [rows, shares] = measure_on(options.devices, run, {view, settings, frames, advance});
         report.rows = std::move(rows);
         report.shares = std::move(shares);
-        report.context["devices"] = shares_json(report.shares);
+        report.context["devices"] = report_json(report.shares);
     }
     run.on_step([] {});
     run.on_progress([] {});
@@ -123,7 +123,7 @@ void write_errors(const fs::path& folder, const Report& report, const ReportRow&
 // The summary with its notes: report.md.
 std::string report_text(const Report& report) {
     return to_markdown(report_summary(report.rows), 3) + "\n" + report_notes(report.rows) +
-           share_lines(report.shares);
+           report_lines(report.shares);
 }
 
 // The document of --json and report.json.
@@ -161,7 +161,7 @@ void check_default(const ReportOptions& options, const std::vector<ReportRow>& r
     const ReportRow* better = row_that_beats_default(rows);
     if (better == nullptr) return;
     const std::string text = fmt::format(
-        "the default is not in the Pareto set: {} takes {:.2f} of its time, its R2 RMSE is {:.3g} "
+        "another setting beats the default: {} takes {:.2f} of its time, its R2 RMSE is {:.3g} "
         "for {:.3g}",
         better->setting.name, better->speed.relative, better->surfaces.hdr.rmse,
         rows.front().surfaces.hdr.rmse);
@@ -246,7 +246,7 @@ void add_report_options(CLI::App& command, ReportOptions& options) {
         .count({"--frames", "N", "20", "Measured frames; fewer of slow settings"}, options.frames,
                {1, 1'000'000})
         .flag("--check-default", options.check_default,
-              "Exit with 3 where another setting is as good in time and error and better in one")
+              "Exit with 3 where another setting is faster beyond noise and as exact")
         .text({"--output,-o", "DIR", "", "Folder for CSV, JSON, Markdown, plots and pictures"},
               options.output)
         .flag(

@@ -154,7 +154,7 @@ void SceneRenderer::set_lights(std::vector<SceneLight> lights) {
     std::vector<SceneLight> all = scene_.added_lights();
     all.resize(all.size() - lights_.size());
     all.insert(all.end(), lights.begin(), lights.end());
-    scene_.replace_lights(std::move(all));
+    scene_.replace_lights(all);
     lights_ = std::move(lights);
     choose_tails();
     RenderSettings settings = renderer_->settings();

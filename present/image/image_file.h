@@ -104,7 +104,7 @@ FileRows file_rows(const std::filesystem::path& file, int height, const Frame& f
 bool can_stream(const std::filesystem::path& file);
 
 /// A picture's file that is written from the top down: the bytes of encode_image() where strips but
-/// the last one are whole blocks of 32 rows. Whole or not at all.
+/// the last one are whole blocks of kFileBlockRows. Whole or not at all.
 class ImageStream {
  public:
     /// Throws Error where the file cannot be written.

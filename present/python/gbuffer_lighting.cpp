@@ -61,7 +61,7 @@ void check(const HostSurfaces& s) {
 template <typename T>
 cl::Buffer device_copy(const Gpu& gpu, const std::vector<T>& values) {
     const std::size_t bytes = std::max(values.size() * sizeof(T), std::size_t{16});
-    const cl::Buffer buffer(gpu.context, CL_MEM_READ_ONLY, bytes);
+    cl::Buffer buffer(gpu.context, CL_MEM_READ_ONLY, bytes);
     upload(gpu, buffer, std::span<const T>(values));
     return buffer;
 }

@@ -98,6 +98,7 @@ py::list settings(const Words& words) {
 
 void add_renderer(py::module_& module) {
     module.def("settings", settings, py::arg("words") = Words());
+    // NOLINTNEXTLINE(bugprone-unused-raii): it stays in the module.
     py::class_<Frame, std::shared_ptr<Frame>>(module, "Frame");
     py::class_<ThreadRenderer>(module, "Renderer")
         .def(py::init([](const std::string& scene, const Words& words, const Scene* made,

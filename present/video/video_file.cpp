@@ -68,7 +68,10 @@ const Encoder* encoder_of(const fs::path& file) {
 class FileSink : public VideoFile::Sink {
  public:
     explicit FileSink(const fs::path& file) : file_(file) {}
-    void write(std::string_view bytes) override { file_.write(bytes); }
+    void write(std::string_view bytes) override {
+        file_.write(bytes);
+        begin_flush(file_.descriptor());
+    }
     void commit() override { file_.commit(); }
 
  private:
@@ -92,8 +95,8 @@ std::vector<std::string> ffmpeg_words(const Encoder& encoder, const fs::path& fi
         "ffmpeg", "-hide_banner", "-nostdin", "-loglevel", "error", "-y", "-f", "yuv4mpegpipe",
         // Of the input, then of the output: only chroma is scaled.
         "-colorspace", "bt709", "-color_range", "tv", "-i", "pipe:0", "-vf",
-        "scale=in_color_matrix=bt709:out_color_matrix=bt709:in_range=tv:out_range=tv,format="
-        "yuv420p",
+        ("scale=in_color_matrix=bt709:out_color_matrix=bt709:in_range=tv:out_range=tv,"
+         "format=yuv420p"),
         "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1",
         "-color_range", "tv", "-chroma_sample_location", "left",
         // The same pictures give the same bytes.

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "host/base/spares.h"
 #include "present/video/y4m.h"
 
 namespace kilolux {
@@ -46,6 +47,9 @@ class VideoFile {
     /// Appends a y4m_frame(). Throws Error with the system's or ffmpeg's reason.
     void write(std::string_view frame);
 
+    /// Of y4m_frame(), for further ones.
+    Spares<std::string>& spares() { return spares_; }
+
     /// Ends the video and puts it in its place.
     void commit();
 
@@ -55,6 +59,7 @@ class VideoFile {
  private:
     std::unique_ptr<Sink> sink_;
     std::string header_;  // until it is written
+    Spares<std::string> spares_;
 };
 
 }  // namespace kilolux

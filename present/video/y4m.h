@@ -30,8 +30,9 @@ Ratio ratio_of(double value);
 /// hexadecimal digits, the hash of a note. At most 95 bytes, which is what ffmpeg reads.
 std::string y4m_header(const VideoFormat& format, const std::string& note = {});
 
-/// A frame, "FRAME\n" and the planes Y', Cb, Cr, of display codes R, G, B, A. Each code is the
-/// nearest to ITU-R BT.709-6, 3.2 to 3.5: Y' 16 to 235, Cb and Cr 16 to 240.
-std::string y4m_frame(std::span<const std::uint8_t> rgba);
+/// Puts a frame in place of `out`, whose memory it takes: "FRAME\n" and the planes Y', Cb, Cr, of
+/// display codes R, G, B, A. Each code is the nearest to ITU-R BT.709-6, 3.2 to 3.5: Y' 16 to 235,
+/// Cb and Cr 16 to 240.
+void y4m_frame(std::span<const std::uint8_t> rgba, std::string& out);
 
 }  // namespace kilolux

@@ -4,6 +4,7 @@
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -318,6 +319,49 @@ TEST(ImageFile, StripsMakeTheSameBytes) {
         ImageOptions options = half_colour();
         options.exr_compression = compression;
         bytes_of_stream(folder / (std::string(compression) + ".exr"), layered, options);
+    }
+}
+
+// A strip's channels are those of the picture, which has ids that floats do not hold.
+TEST(ImageFile, IdsOfAStripAreStoredAsThePictureNeeds) {
+    Frame strip = make_frame();
+    strip.aovs = {{.name = "cluster", .channels = {"cluster"}, .ids{}, .most_id = 1 << 24}};
+    strip.aovs[0].ids.assign(kPixels, 7);
+    const auto type = [&] {
+        return file_rows("a.exr", 1000, strip, {}, {}).layout.channels.back().type;
+    };
+    EXPECT_EQ(type(), SampleType::float32);
+    ++strip.aovs[0].most_id;
+    EXPECT_EQ(type(), SampleType::uint32);
+}
+
+// TIFF's places of 32 bits reach 4 GiB: by the size of the picture, not of the strip.
+TEST(ImageFile, LargeTiffIsBigTiff) {
+    const Frame strip = make_frame();
+    const auto is_big = [&](int height) {
+        const ImageLayout layout = file_rows("a.tif", height, strip, {}, {}).layout;
+        return std::ranges::any_of(layout.attributes, [](const auto& attribute) {
+            return attribute.first == "tiff:bigtiff";
+        });
+    };
+    constexpr int kMost = (1 << 30) / kWidth / 3 * 2;  // rows of 2^31 bytes
+    EXPECT_FALSE(is_big(kMost - 1));
+    EXPECT_TRUE(is_big(kMost + 2));
+}
+
+// The header says so, and the reader finds the rows.
+TEST(ImageFile, BigTiffIsRead) {
+    const TemporaryFolder folder;
+    const Frame frame = make_frame();
+    FileRows rows = file_rows(folder / "a.tif", kHeight, frame, {}, {});
+    rows.layout.attributes.emplace_back("tiff:bigtiff", 1);
+    ImageStream stream(folder / "a.tif");
+    stream.write(rows);
+    stream.commit();
+    EXPECT_EQ(text_of_file(folder / "a.tif").substr(0, 4), std::string("II\x2b\0", 4));
+    const FloatImage image = read_image(folder / "a.tif");
+    for (std::size_t i = 0; i < kPixels; ++i) {
+        ASSERT_EQ(std::lround(image.values[3 * i] * 255.0f), frame.display[4 * i]) << i;
     }
 }
 

@@ -151,6 +151,27 @@ TEST(RowThatBeatsDefault, IsTheFastestThatIsAsExact) {
     EXPECT_EQ(row_that_beats_default({}), nullptr);
 }
 
+// A slower, more exact row does not, however wide noise makes a step of times.
+TEST(RowThatBeatsDefault, IsNoneThatIsSlowerOrAsFast) {
+    std::vector<ReportRow> rows(2);
+    rows[1].setting.axis = SettingAxis::geometry;
+    rows[0].surfaces.hdr.rmse = 0.1;
+    rows[1].surfaces.hdr.rmse = 0.01;
+    for (const double time : {1.0, 1.02, 1.2, 3.0}) {
+        for (const double noise : {0.0, 0.2, 2.0}) {
+            rows[1].speed.relative = time;
+            rows[1].speed.noise = noise;
+            EXPECT_EQ(row_that_beats_default(rows), nullptr) << time << " " << noise;
+        }
+    }
+    rows[1].speed.relative = 0.5;
+    rows[1].speed.noise = 0.2;
+    EXPECT_EQ(row_that_beats_default(rows), &rows[1]);
+    rows.emplace_back(rows[1]).speed = {};
+    rows[2].speed.noise = 2.0;
+    EXPECT_EQ(row_that_beats_default(rows), &rows[1]) << "another row's noise is its own";
+}
+
 void expect_whole_tables() {
     const auto& rows = report().rows;
     const Table table = report_table(rows);

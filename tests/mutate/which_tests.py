@@ -2,17 +2,17 @@
 """Which tests may kill a mutant of a file: programs and cases, the quick ones first."""
 import re
 
-LIGHTING = [("opencl_tests", "Evaluate.*"), ("opencl_tests", "Shade.*"), ("raster_tests", "ForwardPassTest.*"),
+LIGHTING = [("opencl_tests", "Evaluate.*:EveryKernel.*"), ("opencl_tests", "Shade.*"), ("raster_tests", "ForwardPassTest.*"),
             ("measure_tests", "Reference.*:ReferenceLights.*"), ("render_tests", "Specular.*:Unlit.*:MathModes.*")]
 BACKGROUND = [("opencl_tests", "FillBackground.*"), ("measure_tests", "Reflections.*"),
               ("render_tests", "Background.*:Reflections.*")]
 DISPLAY = [("opencl_tests", "Tonemap.*"), ("render_tests", "ShadedDisplay.*:Bloom.*")]
 GBUFFER = [("opencl_tests", "DecodeGBuffer.*:RepackGBuffer.*"), ("opencl_tests", "ResolveSurfaces.*"),
            ("raster_tests", "GBufferLayoutsTest.*:GeometryPassTest.*")]
-SURFACES = [("opencl_tests", "ResolveSurfaces.*:CountTexels.*"),
+SURFACES = [("opencl_tests", "ResolveSurfaces.*:CountTexels.*:EveryKernel.Triangles:EveryKernel.Surfaces"),
             ("measure_tests", "HitSurface.*:ResolvedSurfaces.*:TextureSampler.*"),
             ("raster_tests", "MaterialTest.*:SamplerTest.*:AnisotropyTest.*:GeometryPassTest.*")]
-TRIANGLES = [("opencl_tests", "ExactSign.*:ResolveSurfaces.*"),
+TRIANGLES = [("opencl_tests", "ExactSign.*:RasterSetUp.*:ResolveSurfaces.*:EveryKernel.Triangles"),
              ("certify_tests", "EdgeOnTriangles.*:ObliqueNearPlane.*:CoincidentTriangles.*:TriangleIds.*"),
              ("render_tests", "TriangleRoom.*:DiscreteDevice.*")]
 LISTS = [("opencl_tests", "ClusterGrid.*:BuildClusters.*:Slice.*:MakeView.*:RefineLights.*:CountPairs.*:PrefixSum.*"),
@@ -23,12 +23,12 @@ TREE = [("opencl_tests", "LightTreeKernels.*"), ("render_tests", "LightTreePictu
 TAILS = [("render_tests", "Tails.*")]
 BLOOM = [("render_tests", "Bloom.*")]
 SAMPLES = [("opencl_tests", "AdaptiveSamples.*"), ("render_tests", "SamplePattern.*:Samples.*:AutoSamples.*")]
-SHADOWS = [("opencl_tests", "ShadowTriangle.*:CountSeen.*:CastShadows.*"), ("render_tests", "Shadows.*:SampledShadows.*:ShadowError.*")]
+SHADOWS = [("opencl_tests", "ShadowTriangle.*:ShadowShaft.*:Twofold.*:CountSeen.*:CastShadows.*"), ("render_tests", "Shadows.*:SampledShadows.*:ShadowError.*")]
 PICTURES = [("certify_tests", "All/HardCases.*Lanes16"), ("render_tests", "Paths.*:Bands.*:Views.*")]
 
 # The first that fits a path below kernels/.
 STEPS = (
-    (r"shared/(evaluate|surface\.|light_sum|evaluate_modes|power)", LIGHTING + TAILS),
+    (r"shared/(evaluate|surface\.|light_sum|evaluate_modes|power)", LIGHTING + TAILS + PROFILES),
     (r"shared/(gbuffer|store|surface_planes)", GBUFFER + PICTURES),
     (r"shared/(texture|mips|surface_of|surface_scene|material|triangle)", SURFACES + PICTURES),
     (r"shared/raster_row", TRIANGLES),
@@ -41,7 +41,7 @@ STEPS = (
     (r"shading/(environment|reflect_environment|fill_background)", BACKGROUND),
     (r"shading/sum_lights", LIGHTING + SHADOWS),
     (r"shading/light_target", LIGHTING + DISPLAY),
-    (r"shading/", LIGHTING + PICTURES),
+    (r"shading/", LIGHTING + PICTURES + SHADOWS),
     (r"lights/", LIGHTS + PROFILES + TAILS),
     (r"lists/", LISTS + PICTURES),
     (r"shadows/", SHADOWS),
@@ -53,7 +53,7 @@ STEPS = (
     (r"picture/", SAMPLES),
     (r"surfaces/(store_gbuffer|repack_gbuffer|decode_gbuffer)", GBUFFER + PICTURES),
     (r"surfaces/(count_texels|build_mips|resolve)", SURFACES + PICTURES),
-    (r"surfaces/", TRIANGLES + PICTURES),
+    (r"surfaces/", TRIANGLES + SURFACES + PICTURES),
     (r"device/(gbuffer|pixels)", GBUFFER + LIGHTING + PICTURES),
     (r"device/(triangle|texture|longest_edge)", SURFACES + TRIANGLES + PICTURES),
     (r"device/(display|srgb|luminance)", DISPLAY + GBUFFER),

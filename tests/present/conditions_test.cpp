@@ -57,6 +57,21 @@ TEST(SceneContent, IsThatOfACopyElsewhere) {
     EXPECT_EQ(content_of(folder / "s.gltf"), content_of(folder.path() / "copy" / "s.gltf"));
 }
 
+TEST(SceneContent, OfFilesWithoutEndAndDocumentsWithoutBottom) {
+    const TemporaryFolder folder;
+    write_text(folder / "s.gltf", R"({"buffers":[{"uri":"/dev/zero"}]})");
+    EXPECT_NE(content_of(folder / "s.gltf"), "");
+    constexpr std::size_t kLevels = 1'000'000;
+    write_text(folder / "s.gltf", std::string(kLevels, '[') + std::string(kLevels, ']'));
+    EXPECT_NE(content_of(folder / "s.gltf"), "");
+    // Some writers do not encode URIs.
+    write_text(folder / "s.gltf", R"({"buffers":[{"uri":"a%20b.bin"}]})");
+    write_text(folder / "a%20b.bin", "1");
+    const std::string before = content_of(folder / "s.gltf");
+    write_text(folder / "a%20b.bin", "2");
+    EXPECT_NE(content_of(folder / "s.gltf"), before);
+}
+
 TEST(SceneContent, OfWhatIsNoSceneFile) {
     const TemporaryFolder folder;
     EXPECT_EQ(content_of("atrium"), "atrium");

@@ -66,8 +66,17 @@ TEST(ConfigFile, UnknownNamesAndBadValues) {
         {"quiet = 3\n", "quiet: '3' is not true or false"},
         {"[camera]\nposition = \"0,0,0\"\n", "[camera]"},
         {"{\"lights\": 5", "is not valid JSON"},
-        {"lights = 5\nquiet = true\nlights = 6\n", "config: 'lights' stands twice"},
-        {"{\"lights\": 5, \"lights\": 6}", "config: 'lights' stands twice"},
+        {"lights = 5\nquiet = true\nlights = 6\n",
+         "config:3: 'lights' stands twice, as 5 and 6; a list is an array"},
+        {"# two\n\nlights = 5 # first\n'lights'=6\n",
+         "config:4: 'lights' stands twice, as 5 and 6"},
+        {"resolution = [\n64,\n 48 ]\nresolution = [1, 2]\n",
+         "config:4: 'resolution' stands twice, as [ 64, 48 ] and [1, 2]"},
+        {"variant = \"a#[=\"\nvariant = 'a#[='\n",
+         "config:2: 'variant' stands twice, as \"a#[=\" and 'a#[='"},
+        {"\"quiet\" = true\nquiet = true\n", "config:2: 'quiet' stands twice, as true and true"},
+        {"{\"lights\": 5, \"lights\": 6}", "config: 'lights' stands twice, as 5 and 6"},
+        {"{\"aov\": [\"depth\"], \"aov\": [\"normal\"]}", "stands twice, as depth and normal"},
     };
     for (const auto& c : cases) {
         const auto message = message_of<UsageError>([&] { parse(c.text); });

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "present/image/image_file.h"
 #include "tests/support/child.h"
@@ -81,6 +83,63 @@ TEST(SceneDefects, ThatAreHarmlessRender) {
     alone.add_node({{"name", "alone"}});
     write_file(nodes, alone.gltf());
     EXPECT_EQ(rendered_light(nodes), 0.0) << "nodes alone";
+}
+
+// A row of unlit squares, each a unit wide, before the file's own camera.
+GltfBuilder unlit_squares(const std::vector<std::array<int, 3>>& codes) {
+    GltfBuilder file = quad_with_normal_map();
+    file.root["extensionsUsed"] = {"KHR_materials_unlit"};
+    file.root.erase("nodes");
+    file.root["scenes"][0]["nodes"] = nlohmann::json::array();
+    const nlohmann::json primitive = file.primitive();
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+        nlohmann::json color = {1, 1, 1, 1};
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double share = codes[i][c] / 255.0;
+            color[c] = share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
+        }
+        nlohmann::json square = primitive;
+        square["material"] = file.add(
+            "materials", {{"pbrMetallicRoughness", {{"baseColorFactor", color}}},
+                          {"extensions", {{"KHR_materials_unlit", nlohmann::json::object()}}}});
+        file.add_node(
+            {{"mesh", file.add("meshes", {{"primitives", {square}}})}, {"translation", {i, 0, 0}}});
+    }
+    const double half = 0.5 * static_cast<double>(codes.size());
+    file.add("cameras",
+             {{"type", "orthographic"},
+              {"orthographic", {{"xmag", half}, {"ymag", 0.5}, {"znear", 0.1}, {"zfar", 10}}}});
+    file.add_node({{"camera", 0}, {"translation", {half, 0.5, 5}}});
+    return file;
+}
+
+TEST(SceneDefects, ColoursOfUnlitSurfacesStay) {
+    constexpr int kSide = 16;
+    const std::vector<std::array<int, 3>> codes = {{128, 128, 128}, {40, 40, 40},   {9, 9, 9},
+                                                   {255, 0, 0},     {1, 2, 254},    {200, 128, 40},
+                                                   {12, 77, 5},     {255, 255, 255}};
+    const TemporaryFolder folder;
+    const std::string scene = (folder / "squares.glb").string();
+    const std::string picture = (folder / "a.png").string();
+    write_file(scene, unlit_squares(codes).glb());
+    const auto columns = static_cast<int>(codes.size());
+    const ChildResult result =
+        run_kilolux({"render", scene, "-o", picture, "--resolution",
+                     std::to_string(columns * kSide) + "," + std::to_string(kSide)});
+    ASSERT_EQ(result.code, 0) << result.err;
+    EXPECT_TRUE(contains(result.err, "tonemap none (automatic)")) << result.err;
+    const FloatImage image = read_image(picture);
+    const std::vector<float> rgb = colour_of(image);
+    ASSERT_EQ(image.width, columns * kSide);
+    for (int i = 0; i < columns; ++i) {
+        const auto pixel =
+            static_cast<std::size_t>(kSide / 2 * image.width + i * kSide + kSide / 2);
+        for (std::size_t c = 0; c < 3; ++c) {
+            EXPECT_EQ(std::lround(255.0f * rgb[3 * pixel + c]),
+                      codes[static_cast<std::size_t>(i)][c])
+                << "square " << i << ", channel " << c;
+        }
+    }
 }
 
 TEST(SharedScenes, BrokenOnesEndInOneLineAndExitOne) {

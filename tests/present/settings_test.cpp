@@ -217,11 +217,12 @@ TEST(Settings, AreInTheKeyOfAChoice) {
 
 // Values set in the panel are kept after the window's end.
 TEST(Settings, OfThePanelComeBack) {
-    const Names panel = {
-        "--renderer",   "--shading",         "--shadows",      "--gbuffer",    "--show",
-        "--exposure",   "--tonemap",         "--bloom",        "--ambient",    "--samples",
-        "--rig",        "--lights",          "--light-radius", "--light-seed", "--tails",
-        "--tree-share", "--light-intensity", "--grid",         "--lanes"};
+    auto options = initial<SharedOptions>();
+    Names panel;
+    for (const Setting& setting : settings_of(options)) {
+        if (setting.text.effect.in_panel) panel.insert(setting.option());
+    }
+    ASSERT_FALSE(panel.empty());
     std::size_t found = 0;
     for (const auto& changed : changed_options()) {
         if (!panel.contains(changed.option)) continue;

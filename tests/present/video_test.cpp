@@ -67,7 +67,7 @@ TEST(Video, CodesAreThoseOfBt709) {
                                                255, 0, 0,   255, 0,   255, 0,   255,
                                                0,   0, 255, 255, 128, 128, 128, 255};
     std::string out;
-    out += y4m_frame(colours);
+    y4m_frame(colours, out);
     // Table values: 16 + 219 Y', 128 + 224 Pb, 128 + 224 Pr.
     const std::vector<int> expected = {16,  235, 63,  173, 32,  126,   // Y'
                                        128, 128, 102, 42,  240, 128,   // Cb
@@ -77,6 +77,32 @@ TEST(Video, CodesAreThoseOfBt709) {
     for (std::size_t i = 0; i < expected.size(); ++i) {
         EXPECT_EQ(static_cast<unsigned char>(out[6 + i]), expected[i]) << i;
     }
+}
+
+// Of all colours: 16 + 219 Y', 128 + 224 Pb, 128 + 224 Pr, rounded; halves either way.
+TEST(Video, CodesAreTheNearest) {
+    constexpr std::size_t kColours = 1 << 24;
+    std::vector<std::uint8_t> colours(4 * kColours);
+    for (std::size_t i = 0; i < colours.size(); ++i) {
+        colours[i] = static_cast<std::uint8_t>(i / 4 >> (8 * (i % 4)));
+    }
+    std::string out(10, 'x');
+    y4m_frame(colours, out);
+    ASSERT_EQ(out.size(), 6 + 3 * kColours);
+    std::size_t wrong = 0;
+    const auto check = [&](std::size_t plane, std::size_t i, double code) {
+        const double seen = static_cast<unsigned char>(out[6 + plane * kColours + i]);
+        wrong += std::abs(seen - code) > 0.5 + 1e-9 ? 1 : 0;
+    };
+    for (std::size_t i = 0; i < kColours; ++i) {
+        const double r = colours[4 * i] / 255.0, g = colours[4 * i + 1] / 255.0,
+                     b = colours[4 * i + 2] / 255.0;
+        const double y = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+        check(0, i, 16.0 + 219.0 * y);
+        check(1, i, 128.0 + 224.0 * (b - y) / 1.8556);
+        check(2, i, 128.0 + 224.0 * (r - y) / 1.5748);
+    }
+    EXPECT_EQ(wrong, 0u);
 }
 
 TEST(Video, PacesAreRatios) {

@@ -82,15 +82,44 @@ TEST(MemoryPlan, CountsWhatAutomaticGeometryAndTheDifferenceTake) {
     EXPECT_EQ(more.bytes - difference.bytes, 2 * (plan(scene, settings).bytes - view.bytes));
 }
 
-// Without generated lights the message names none.
+// Each takes its part; messages say what is divided.
+TEST(MemoryPlan, RenderersShareTheMemory) {
+    const Scene scene = make_generated_scene("plain");
+    RenderSettings settings = small_settings(64, 64, 100);
+    const auto made = [&] {
+        return plan_memory(scene, settings, make_scene_plan(scene, settings, 100), cpu());
+    };
+    settings.max_memory_bytes = std::uint64_t{1} << 29;
+    const MemoryPlan half = made();
+    settings.max_memory_bytes = std::uint64_t{1} << 30;
+    settings.memory_shares = 2;
+    const MemoryPlan share = made();
+    EXPECT_EQ(share.device_bytes, half.device_bytes);
+    EXPECT_EQ(share.held_bytes, half.held_bytes);
+    settings.memory_shares = 8;
+    const std::string refused = message_of<Error>(made);
+    EXPECT_TRUE(refused.ends_with(" MiB; --max-memory is 1024 MiB for 8 devices")) << refused;
+}
+
+// The message blames lights only where the program fits without them.
 TEST(MemoryPlan, TheProgramAloneMayBeTooLarge) {
     RenderSettings settings = small_settings(64, 64, 5000);
-    settings.max_memory_bytes = 1 << 20;
-    const auto refused = [&](std::uint64_t lights) {
+    const auto refused = [&](std::uint64_t lights, std::uint64_t mebibytes) {
+        settings.max_memory_bytes = mebibytes << 20;
         return message_of<Error>([&] { check_light_memory(lights, settings); });
     };
-    EXPECT_TRUE(refused(0).starts_with("memory: the program needs at least 256 MiB")) << refused(0);
-    EXPECT_TRUE(refused(5000).starts_with("memory: 5000 lights need at least ")) << refused(5000);
+    for (const std::uint64_t lights : {0, 1, 5000}) {
+        EXPECT_EQ(refused(lights, 1),
+                  "memory: the program with its drivers needs at least 256 MiB; --max-memory is 1 "
+                  "MiB");
+    }
+    EXPECT_EQ(
+        refused(1, 256),
+        "memory: the program and 1 generated light need at least 257 MiB; --max-memory is 256 "
+        "MiB");
+    EXPECT_TRUE(refused(1'000'000, 257)
+                    .starts_with("memory: the program and 1000000 generated lights need at least "))
+        << refused(1'000'000, 257);
     settings.max_memory_bytes = 1 << 30;
     EXPECT_NO_THROW(check_light_memory(5000, settings));
 }

@@ -118,5 +118,33 @@ TEST(Reuse, NothingThatMovesKeepsLists) {
     EXPECT_TRUE(has_stage(renderer.render(camera, 0.1), "cull_lights"));
 }
 
+// Every value is written anew.
+TEST(Reuse, FramesTakeTheMemoryOfSpareOnes) {
+    const Scene scene = make_generated_scene("grid");
+    RenderSettings settings = small_settings();
+    settings.band_rows = 16;
+    settings.bloom = 0.2f;
+    settings.want.shown_light = true;
+    Renderer renderer(scene, settings);
+    const Camera camera = first_camera(scene);
+    const Frame wanted = renderer.render(camera, 0.0);
+    Frame spare = wanted;
+    std::ranges::fill(spare.radiance, 1e30f);
+    std::ranges::fill(spare.shown_light, 1e30f);
+    std::ranges::fill(spare.display, std::uint8_t{77});
+    const void* const light = spare.radiance.data();
+    const void* const shown = spare.shown_light.data();
+    const void* const display = spare.display.data();
+    renderer.spare_frames()->give(std::move(spare));
+    const Frame again = renderer.render(camera, 0.0);
+    EXPECT_EQ(again.radiance, wanted.radiance);
+    EXPECT_EQ(again.shown_light, wanted.shown_light);
+    EXPECT_EQ(again.display, wanted.display);
+    EXPECT_EQ(light, again.radiance.data());
+    EXPECT_EQ(shown, again.shown_light.data());
+    EXPECT_EQ(display, again.display.data());
+    EXPECT_NE(display, renderer.render(camera, 0.0).display.data()) << "it is taken";
+}
+
 }  // namespace
 }  // namespace kilolux

@@ -72,6 +72,60 @@ TEST(Strips, HaveTheBitsOfThePicture) {
     expect_same_in_strips(scene, settings);
 }
 
+// Through blended surfaces, whose strips are whole tiles of OpenGL's.
+TEST(Strips, HaveTheBitsOfBlendedSurfaces) {
+    Scene scene = make_generated_scene("grid");
+    scene.materials[0].alpha_mode = AlphaMode::blend;
+    scene.materials[0].base_color.w = 0.5f;
+    RenderSettings settings = small_settings(48, kRasterRows + 100, 50);
+    settings.want.strip_makers = 1;
+    settings.geometry = Geometry::ids;
+    Renderer renderer(scene, settings);
+    EXPECT_EQ(renderer.memory().least_rows, kRasterRows);
+    const Camera camera = first_camera(scene);
+    const Frame whole = renderer.render(camera, 0.5);
+    for (const Band& rows : {Band{kRasterRows, 100}, Band{0, kRasterRows}}) {
+        const Frame strip = renderer.render_strip(camera, 0.5, rows);
+        EXPECT_TRUE(strip.radiance == rows_of(whole.radiance, strip, 3));
+        EXPECT_TRUE(strip.display == rows_of(whole.display, strip, 4));
+    }
+    scene.materials[0].base_color.w = 0.4f;
+    Renderer other(scene, settings);
+    EXPECT_FALSE(other.render(camera, 0.5).radiance == whole.radiance) << "nothing blends";
+}
+
+bool is_drawn(const Frame& frame) {
+    return std::ranges::any_of(frame.stats.stages,
+                               [](const StageTime& stage) { return stage.name == "geometry"; });
+}
+
+// As alpha makes strips: OpenGL draws their tile once for both backgrounds.
+TEST(Strips, BeforeTwoBackgroundsAreDrawnOnce) {
+    const Scene scene = make_generated_scene("grid");
+    RenderSettings black = small_settings(96, 128, 100);
+    black.geometry = Geometry::ids;
+    RenderSettings white = black;
+    white.background = std::make_shared<const Environment>(Environment{1, 1, {glm::vec3(1.0f)}});
+    white.want = radiance_only();
+    const Camera camera = first_camera(scene);
+    const Frame on_black = render_once(scene, black), on_white = render_once(scene, white);
+    Renderer renderer(scene, black);
+    for (const Band& rows : {Band{0, 64}, Band{64, 64}}) {
+        renderer.change(black);
+        const Frame first = renderer.render_strip(camera, 0.0, rows);
+        EXPECT_EQ(is_drawn(first), rows.first_row == 0);
+        EXPECT_TRUE(first.radiance == rows_of(on_black.radiance, first, 3));
+        renderer.change(white);
+        const Frame second = renderer.render_strip(camera, 0.0, rows);
+        EXPECT_FALSE(is_drawn(second));
+        EXPECT_TRUE(second.radiance == rows_of(on_white.radiance, second, 3));
+    }
+    RenderSettings wider = white;
+    wider.width = 112;
+    renderer.change(wider);
+    EXPECT_TRUE(is_drawn(renderer.render_strip(camera, 0.0, {64, 64}))) << "another picture";
+}
+
 TEST(Strips, AreRefusedWhereThePictureIsNeeded) {
     const Scene scene = make_generated_scene("plain");
     RenderSettings settings = small_settings(64, 64, 10);

@@ -113,6 +113,50 @@ TEST(Tails, ABoundIsNeverBelowTheError) {
     }
 }
 
+// A wall that is seen at an angle, and lamps straight before it: the bound needs the products of
+// the directions' components, whose signs the wall's normal has.
+Scene lamps_before_a_wall(const glm::dvec3& normal) {
+    Scene scene;
+    scene.materials.push_back({});
+    Mesh wall;
+    const glm::dvec3 u = glm::normalize(glm::cross(normal, glm::dvec3(0.31, 0.52, -0.8)));
+    const glm::dvec3 v = glm::cross(normal, u);
+    for (const auto& [a, b] : {std::array{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}) {
+        wall.positions.emplace_back(3.0 * (a * u + b * v));
+        wall.normals.emplace_back(normal);
+    }
+    wall.indices = {0, 1, 2, 0, 2, 3};
+    scene.meshes.push_back(wall);
+    scene.instances.push_back({0, glm::dmat4(1.0)});
+    for (int i = 0; i < 20; ++i) {
+        SceneLight lamp;
+        lamp.position = (40.0 + i) * normal;
+        lamp.intensity = {3.0f, 2.0f, 1.0f};
+        scene.lights.push_back(lamp);
+    }
+    return scene;
+}
+
+TEST(Tails, ABoundHoldsForEveryDirectionOfLight) {
+    RenderSettings settings = tail_settings(Tails::bounded);
+    settings.range_budget = 1.0;
+    settings.shading = Shading::lambert;
+    settings.gbuffer = GBUFFER_FULL;
+    settings.grid.tiles_x = settings.grid.tiles_y = 16;
+    const Camera camera = look_at({0, 0, 9}, {0, 0, 0}, {0, 1, 0}, 0.5);
+    for (const glm::dvec3& towards : {glm::dvec3(1, 1, 0.3),
+                                      {-1, 1, 0.3},
+                                      {1, 0.1, 1},
+                                      {-1, 0.1, 1},
+                                      {0.1, 1, 1},
+                                      {0.1, -1, 1}}) {
+        const TailAgreement found =
+            compare_tails({"", lamps_before_a_wall(glm::normalize(towards)), camera}, settings);
+        EXPECT_EQ(found.below, 0) << towards.x << ' ' << towards.y;
+        EXPECT_GT(found.looseness.size(), 300u) << towards.x << ' ' << towards.y;
+    }
+}
+
 TEST(Tails, ABoundIsNothingWhereNothingIsLost) {
     RenderSettings settings = tail_settings(Tails::exact);
     settings.want.aovs = {"error-bound"};

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "host/scene/gltf/load_scene.h"
+#include "tests/support/gltf_builder.h"
 #include "tests/support/paths.h"
 #include "tests/support/render_fixture.h"
 
@@ -262,6 +263,51 @@ TEST(Ways, MakeTheSameSurfacesWithOtherFilters) {
 TEST(Ways, MakeTheSameSurfacesOfAGeneratedScene) {
     const Scene scene = make_generated_scene("atrium");
     expect_one_surface(scene, first_camera(scene), way_settings());
+}
+
+// Quads with noise and a normal map: a large one, before it a mirrored one of this alpha mode, and
+// one that alpha cuts out and an animation turns.
+GltfBuilder quads_file(const char* alpha_of_mirrored) {
+    constexpr int kSide = 32;
+    std::mt19937 random(11);
+    Blob noise(std::size_t{4} * kSide * kSide);
+    for (unsigned char& value : noise) value = static_cast<unsigned char>(64 + random() % 192);
+    GltfBuilder file = quad_with_normal_map();
+    const int texture = file.add_texture(encode_image("png", kSide, 4, noise), "image/png");
+    file.root["materials"][0]["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", texture}}},
+                                                         {"metallicFactor", 0.5},
+                                                         {"roughnessFactor", 0.6}};
+    file.add_node({{"mesh", 0}, {"translation", {-3, -3, -0.5}}, {"scale", {6, 6, 1}}});
+    const auto add_quad = [&](const char* alpha_mode, nlohmann::json node) {
+        nlohmann::json material = file.root["materials"][0];
+        material["alphaMode"] = alpha_mode;
+        material["doubleSided"] = true;
+        nlohmann::json primitive = file.primitive();
+        primitive["material"] = file.add("materials", material);
+        node["mesh"] = file.add("meshes", {{"primitives", {primitive}}});
+        return file.add_node(node);
+    };
+    add_quad(alpha_of_mirrored, {{"translation", {-0.1, 0, 0.1}}, {"scale", {-1, 1.2, 1}}});
+    const int turned = add_quad("MASK", {{"translation", {-0.5, -1.1, 0}}});
+    const std::vector<float> turns = {0, 0, 0, 1, 0, 0.6f, 0, 0.8f};
+    file.add(
+        "animations",
+        {{"samplers",
+          {{{"input", file.add_floats("SCALAR", {0, 1})},
+            {"output", file.add_floats("VEC4", turns)}}}},
+         {"channels", {{{"sampler", 0}, {"target", {{"node", turned}, {"path", "rotation"}}}}}}});
+    return file;
+}
+
+TEST(Ways, MakeTheSameSurfacesOfAWrittenFile) {
+    LoadOptions options;
+    options.time = 0.5;
+    for (const char* alpha_mode : {"OPAQUE", "BLEND"}) {
+        SCOPED_TRACE(alpha_mode);
+        expect_one_surface(load(quads_file(alpha_mode), options),
+                           look_at({0.2, 0.1, 2.0}, {0, 0, 0}, {0, 1, 0}, glm::radians(60.0)),
+                           way_settings());
+    }
 }
 
 TEST(Ways, MakeTheSameSurfacesOfLoadedScenes) {

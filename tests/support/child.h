@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -19,8 +20,9 @@ namespace kilolux {
 struct ChildResult {
     int code = -1;  // exit code, or -1 when a signal killed it
     int signal = 0;
-    std::string out;  // standard output
-    std::string err;  // standard error
+    std::string out;    // standard output
+    std::string err;    // standard error
+    long peak_kib = 0;  // resident
 };
 
 /// Runs `words` of which the first is the program's path. `meanwhile` gets the process while it
@@ -42,8 +44,10 @@ inline ChildResult run_child(std::vector<std::string> words,
     }
     if (meanwhile) meanwhile(child);
     int status = 0;
-    waitpid(child, &status, 0);
+    struct rusage usage = {};
+    wait4(child, &status, 0, &usage);
     ChildResult result;
+    result.peak_kib = usage.ru_maxrss;
     if (WIFEXITED(status)) result.code = WEXITSTATUS(status);
     if (WIFSIGNALED(status)) result.signal = WTERMSIG(status);
     result.out = text_of_file(out);

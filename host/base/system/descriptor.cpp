@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/base/system/descriptor.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -14,6 +15,8 @@ namespace kilolux {
 void fail_to_write(const std::filesystem::path& file) {
     throw Error(file.string() + ": cannot write: " + std::strerror(errno));
 }
+
+void begin_flush(int descriptor) { ::sync_file_range(descriptor, 0, 0, SYNC_FILE_RANGE_WRITE); }
 
 Descriptor::Descriptor(int number, std::filesystem::path file)
     : number_(number), file_(std::move(file)) {

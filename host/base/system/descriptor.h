@@ -9,6 +9,10 @@ namespace kilolux {
 /// Throws Error "<file>: cannot write: <reason of errno>".
 [[noreturn]] void fail_to_write(const std::filesystem::path& file);
 
+/// Has the disk take what was written to the file, while more is made: to flush it all at the end
+/// takes as long as to write it. Nothing for pipes and devices.
+void begin_flush(int descriptor);
+
 /// A file descriptor that is open for writing and closes itself.
 class Descriptor {
  public:

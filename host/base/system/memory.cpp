@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/base/system/memory.h"
 
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
 #include <limits>
+#include <thread>
+
+#include "host/base/error.h"
 
 namespace kilolux {
 namespace {
@@ -42,18 +46,44 @@ std::uint64_t group_available() {
     return below(number_in(group + "max"), number_in(group + "current"));
 }
 
-std::uint64_t address_space_available() {
+// Pages of this process, in bytes: of its address space, or those that are resident.
+std::uint64_t own_pages(bool resident) {
+    std::ifstream in("/proc/self/statm");
+    std::uint64_t all = 0, present = 0;
+    if (!(in >> all >> present)) return 0;
+    return (resident ? present : all) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+// RLIMIT_AS
+std::uint64_t address_space_limit() {
     rlimit limit{};
     if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return kUnknown;
-    const std::uint64_t pages = number_in("/proc/self/statm");
-    const auto page = static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-    return below(limit.rlim_cur, pages == kUnknown ? 0 : pages * page);
+    return limit.rlim_cur;
 }
+
+std::uint64_t address_space_available() { return below(address_space_limit(), own_pages(false)); }
 
 }  // namespace
 
 std::uint64_t available_memory_bytes() {
     return std::min({system_available(), group_available(), address_space_available()});
+}
+
+std::uint64_t resident_memory_bytes() { return own_pages(true); }
+
+void require_address_space(std::uint64_t bytes, const std::string& what) {
+    // A stack, and PoCL's local memory.
+    constexpr std::uint64_t kThread = std::uint64_t{28} << 20;
+    constexpr int kArenas = 2;
+    const std::uint64_t limit = address_space_limit();
+    if (limit == kUnknown) return;
+    mallopt(M_ARENA_MAX, kArenas);
+    const std::uint64_t need = bytes + kThread * std::thread::hardware_concurrency();
+    const std::uint64_t left = address_space_available();
+    if (left >= need) return;
+    throw Error("memory: " + what + " needs " + mebibytes(need) + " of address space, " +
+                std::to_string(left >> 20) + " MiB of " + mebibytes(limit) +
+                " are left (ulimit -v)");
 }
 
 std::string mebibytes(std::uint64_t bytes) {

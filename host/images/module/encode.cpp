@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "host/base/error.h"
+#include "host/base/system/descriptor.h"
 #include "host/images/module/parts.h"
 
 namespace kilolux::oiio {
@@ -96,6 +97,7 @@ class DescriptorProxy : public OIIO::Filesystem::IOProxy {
     }
 
     int error() const { return error_; }
+    void begin_flush() const { kilolux::begin_flush(file_); }
 
  private:
     int file_;
@@ -116,7 +118,8 @@ class ExrRows {
     void write(int begin, int rows, const unsigned char* pixels, std::size_t pixel_stride) {
         constexpr std::size_t kPiece = 4u << 20;  // [byte]
         const std::size_t row_bytes = static_cast<std::size_t>(spec_.width) * pixel_stride;
-        const int piece = static_cast<int>(std::max<std::size_t>(kPiece / row_bytes / 32, 1)) * 32;
+        const int fitting = static_cast<int>(kPiece / row_bytes) / kFileBlockRows;
+        const int piece = std::max(fitting, 1) * kFileBlockRows;
         // Each takes the memory of four at most; all together take that of the rows twice.
         const int most = (rows / piece + 1) / 2;
         const int threads = tbb::this_task_arena::max_concurrency();
@@ -218,6 +221,7 @@ class FileWriter : public ImageWriter {
         check(exr_ || out_->write_scanlines(next_, next_ + rows, 0, type_in(spec_), pixels.data(),
                                             static_cast<OIIO::stride_t>(pixel_stride)));
         next_ += rows;
+        proxy_.begin_flush();
     }
 
     void close() override {

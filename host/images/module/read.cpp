@@ -12,7 +12,7 @@
 namespace kilolux::oiio {
 namespace {
 
-SampleType sample_type(OIIO::TypeDesc type) {
+SampleType sample_type(const OIIO::TypeDesc& type) {
     for (const SampleType known :
          {SampleType::uint8, SampleType::uint16, SampleType::uint32, SampleType::half}) {
         if (type == type_of(known)) return known;

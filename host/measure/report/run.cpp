@@ -260,15 +260,18 @@ void mark_fronts(std::vector<ReportRow>& rows) {
 }
 
 const ReportRow* row_that_beats_default(const std::vector<ReportRow>& rows) {
-    const std::optional<double> error = rows.empty() ? std::nullopt : surfaces_rmse(rows.front());
-    if (!error) return nullptr;
-    const std::vector<std::size_t> front = front_of(rows, surfaces_rmse);
-    if (std::ranges::count(front, std::size_t{0}) > 0) return nullptr;
-    const auto beats = [&](std::size_t i) {
-        return *surfaces_rmse(rows[i]) <= (1.0 + kErrorResolution) * *error;
-    };
-    const auto found = std::ranges::find_if(front, beats);  // ascending by time
-    return found == front.end() ? nullptr : &rows[*found];
+    const std::optional<double> standard =
+        rows.empty() ? std::nullopt : surfaces_rmse(rows.front());
+    if (!standard) return nullptr;
+    const ReportRow* found = nullptr;
+    for (const ReportRow& row : rows) {
+        const double resolution = std::max(kCostResolution, 2.0 * row.speed.noise);
+        const std::optional<double> error = surfaces_rmse(row);
+        const bool beats = row.speed.relative < 1.0 - resolution && error &&
+                           *error <= (1.0 + kErrorResolution) * *standard;
+        if (beats && (!found || row.speed.relative < found->speed.relative)) found = &row;
+    }
+    return found;
 }
 
 }  // namespace kilolux

@@ -165,8 +165,10 @@ std::vector<std::size_t> front_of(const std::vector<ReportRow>& rows, const RowE
 /// Marks the rows of the Pareto sets.
 void mark_fronts(std::vector<ReportRow>& rows);
 
-/// The fastest row that is as good as the default (the first row) in time and R2's RMSE and better
-/// in one of them; none where the default is in the Pareto set of both, or has no such error.
+/// The fastest row that beats the default (the first row); none: no row does. A row beats it where
+/// it is faster by more than kCostResolution and twice its own noise, and its R2 RMSE is at most
+/// kErrorResolution above the default's. One that is slower, or as fast within noise, does not,
+/// however exact it is.
 const ReportRow* row_that_beats_default(const std::vector<ReportRow>& rows);
 
 }  // namespace kilolux

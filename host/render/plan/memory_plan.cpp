@@ -6,6 +6,7 @@
 
 #include "host/base/error.h"
 #include "host/base/system/memory.h"
+#include "host/images/images.h"
 #include "host/picture/aovs.h"
 #include "host/picture/bands.h"
 #include "host/picture/decoded_surfaces.h"
@@ -49,15 +50,19 @@ constexpr int kAnyAnisotropy = 1;
 // OpenCL drivers and encoders of image files take the rest of what is available.
 constexpr double kAvailableShare = 0.8;
 
-Bytes limit_of(const RenderSettings& settings) {
+// All that the process may hold, the program's own part of it included.
+Bytes whole_limit(const RenderSettings& settings) {
     if (settings.max_memory_bytes > 0) return settings.max_memory_bytes;
-    return static_cast<Bytes>(kAvailableShare * static_cast<double>(available_memory_bytes()));
+    const Bytes own = std::min(resident_memory_bytes(), kProgram);
+    return static_cast<Bytes>(kAvailableShare *
+                              static_cast<double>(std::min(available_memory_bytes(), ~own) + own));
 }
 
 std::string limit_text(const RenderSettings& settings) {
-    return settings.max_memory_bytes > 0
-               ? "--max-memory is " + mebibytes(settings.max_memory_bytes)
-               : "there are " + mebibytes(limit_of(settings)) + " to use (--max-memory)";
+    std::string whole = mebibytes(whole_limit(settings));
+    if (settings.memory_shares > 1) whole += fmt::format(" for {} devices", settings.memory_shares);
+    return settings.max_memory_bytes > 0 ? "--max-memory is " + whole
+                                         : "there are " + whole + " to use (--max-memory)";
 }
 
 // Bytes of the scene on the host; once more for OpenGL where its fragments sample the images.
@@ -174,9 +179,13 @@ bool needs_whole_tiles(const Scene& scene, const RenderSettings& settings) {
     return is_forward(settings.renderer) || has_blended_surfaces(scene);
 }
 
+std::string lights_text(Bytes count) {
+    return fmt::format("{} generated light{}", count, count == 1 ? "" : "s");
+}
+
 std::string picture_text(const RenderSettings& settings) {
-    return fmt::format("{}x{} pixels with {} generated lights", settings.width, settings.height,
-                       settings.lights.count);
+    return fmt::format("{}x{} pixels with {}", settings.width, settings.height,
+                       lights_text(settings.lights.count));
 }
 
 int multiple_of_tile(Bytes rows) { return static_cast<int>(rows / FINE_TILE * FINE_TILE); }
@@ -199,14 +208,11 @@ Strip all_rows(const RenderSettings& settings, const Need& need) {
 // The highest strip of at most kStripPixels, shared by the makers, of which those that are held
 // take a small part of the memory: bands and lists need the rest.
 Strip highest_strip(const RenderSettings& settings, const Need& need, int lowest, Bytes limit) {
-    // Of whole blocks of rows of image files: OpenEXR compresses up to 32 at once, OpenImageIO's
-    // TIFF 32.
-    constexpr int kFileRows = 32;
     constexpr Bytes kHeld = 4;  // one is made, one is coded, with copies, and one waits
     constexpr Bytes kPart = 8;  // they take one part in so many of what is left
     const Bytes left = limit > need.fixed ? limit - need.fixed : 0;
     const Bytes width = padded_width(settings);
-    const int step = std::max(lowest, kFileRows);
+    const int step = std::max(lowest, kFileBlockRows);
     const auto multiple = [step](Bytes rows) {
         return std::max(step, static_cast<int>(rows) / step * step);
     };
@@ -230,10 +236,14 @@ Strip choose_strip(const RenderSettings& settings, const Need& need, int lowest,
 
 }  // namespace
 
+std::uint64_t memory_limit(const RenderSettings& settings) {
+    return whole_limit(settings) / static_cast<Bytes>(settings.memory_shares);
+}
+
 MemoryPlan plan_memory(const Scene& scene, const RenderSettings& settings, const ScenePlan& plan,
                        const DeviceInfo& device, bool draws_in_opencl) {
     const Need need = need_of(scene, settings, plan, draws_in_opencl);
-    const Bytes limit = limit_of(settings);
+    const Bytes limit = memory_limit(settings);
     const Bytes width = padded_width(settings);
     const int whole = (settings.height + FINE_TILE - 1) / FINE_TILE * FINE_TILE;
     const int tile = is_forward(settings.renderer) ? whole : std::min(whole, kRasterRows);
@@ -264,12 +274,14 @@ MemoryPlan plan_memory(const Scene& scene, const RenderSettings& settings, const
 }
 
 void check_light_memory(std::uint64_t lights, const RenderSettings& settings) {
+    const Bytes limit = memory_limit(settings);
     const Bytes need = kProgram + lights * kLight;
-    if (need <= limit_of(settings)) return;
-    throw Error(
-        fmt::format("memory: {} at least {}; {}",
-                    lights == 0 ? "the program needs" : fmt::format("{} lights need", lights),
-                    mebibytes(need), limit_text(settings)));
+    if (need <= limit) return;
+    const std::string what =
+        kProgram > limit
+            ? "the program with its drivers needs at least " + mebibytes(kProgram)
+            : "the program and " + lights_text(lights) + " need at least " + mebibytes(need);
+    throw Error("memory: " + what + "; " + limit_text(settings));
 }
 
 }  // namespace kilolux

@@ -26,10 +26,14 @@ inline constexpr std::uint64_t kLargePicture = std::uint64_t{1} << 26;
 /// The most pixels of a strip, but for strips of the least rows.
 inline constexpr std::uint64_t kStripPixels = std::uint64_t{1} << 24;
 
-/// The highest bands that fit into settings.max_memory_bytes (0: most of what is available) and
-/// into the device's buffers. The picture's bits do not depend on it. Throws Error, before anything
-/// large is allocated, when even the lowest bands do not fit: it says what is needed and what is
-/// available. `draws_in_opencl`: OpenGL has no targets.
+/// What a renderer may take: its share of settings.max_memory_bytes (0: of most of what is
+/// available).
+std::uint64_t memory_limit(const RenderSettings& settings);
+
+/// The highest bands that fit into memory_limit() and into the device's buffers. The picture's bits
+/// do not depend on it. Throws Error, before anything large is allocated, when even the lowest
+/// bands do not fit: it says what is needed and what is available. `draws_in_opencl`: OpenGL has no
+/// targets.
 MemoryPlan plan_memory(const Scene& scene, const RenderSettings& settings, const ScenePlan& plan,
                        const DeviceInfo& device, bool draws_in_opencl = false);
 

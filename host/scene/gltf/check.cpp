@@ -16,9 +16,6 @@ namespace {
 
 using nlohmann::json;
 
-// Deeper than any real file. Limited because readers of JSON may recurse.
-constexpr int kMaxDepth = 100;
-
 std::string shown(const json& value) {
     constexpr std::size_t kLongest = 40;
     if (value.is_array() && value.size() > 16) return fmt::format("an array of {}", value.size());
@@ -179,34 +176,12 @@ struct Checker {
     }
 };
 
-// Levels of arrays and objects. Counted on the text: JSON readers may recurse, and the parser's
-// callback takes time quadratic in an array's length.
-int nesting_depth(std::string_view text) {
-    int depth = 0;
-    int deepest = 0;
-    bool in_string = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (in_string) {
-            if (c == '\\') ++i;
-            in_string = c != '"';
-        } else if (c == '"') {
-            in_string = true;
-        } else if (c == '[' || c == '{') {
-            deepest = std::max(deepest, ++depth);
-        } else if (c == ']' || c == '}') {
-            --depth;
-        }
-    }
-    return deepest;
-}
-
-json parse(std::string_view text, const std::string& name) {
-    if (nesting_depth(text) > kMaxDepth) {
-        throw Error(fmt::format("{}: JSON is nested deeper than {} levels", name, kMaxDepth));
+json parse(const JsonText& json_text, const std::string& name) {
+    if (json_text.depth > kDeepestJson) {
+        throw Error(fmt::format("{}: JSON is nested deeper than {} levels", name, kDeepestJson));
     }
     try {
-        return json::parse(text);
+        return json::parse(json_text.text);
     } catch (const json::exception& error) {
         const std::string what = error.what();
         throw Error(name + ": is not JSON: " + what.substr(what.find(']') + 2));
@@ -237,7 +212,9 @@ constexpr std::string_view kAnimation = "animations[]";
 // Checks each animation by itself, and notes the first error of each.
 void check_animations(GltfJson& file, const Checker& checker) {
     const auto found = file.root.find(kAnimations);
-    if (found == file.root.end()) return;
+    if (found == file.root.end() || !found->is_array()) {
+        return checker.visit(file.root, checker.rule.path, {});
+    }
     const JsonPlace top{}, all{&top, kAnimations};
     for (std::size_t i = 0; i < found->size(); ++i) {
         if (file.broken_animations.contains(i)) continue;
@@ -265,7 +242,7 @@ void empty_broken(GltfJson& file) {
 
 }  // namespace
 
-GltfJson parse_gltf_json(std::string_view text, const std::string& name) {
+GltfJson parse_gltf_json(const JsonText& text, const std::string& name) {
     GltfJson out{parse(text, name)};
     json& root = out.root;
     check_version(root, name);

@@ -5,7 +5,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <string_view>
+
+#include "host/scene/gltf/json/json_text.h"
 
 namespace kilolux {
 
@@ -20,6 +21,6 @@ struct GltfJson {
 /// indices that the rules promise; a whole number written as 3.0 becomes an integer.
 ///
 /// Throws Error "<name>: accessors[7].count is "x", must be an integer from 0 to ...".
-GltfJson parse_gltf_json(std::string_view text, const std::string& name);
+GltfJson parse_gltf_json(const JsonText& text, const std::string& name);
 
 }  // namespace kilolux

@@ -10,24 +10,34 @@
 #include "host/scene/gltf/check.h"
 #include "host/scene/gltf/choices.h"
 #include "host/scene/gltf/extensions.h"
+#include "host/scene/gltf/json/parse_model.h"
+#include "host/scene/gltf/json/used_parts.h"
 #include "host/scene/gltf/mesh/meshopt.h"
-#include "host/scene/gltf/used_parts.h"
 
 namespace kilolux {
 namespace {
 
 using nlohmann::json;
 
-// Bounds of the memory that accessors decode to: enough for real files with instanced, skinned and
-// compressed meshes, small enough that a file of a few KiB cannot claim gigabytes.
-constexpr std::uint64_t kBudgetFloorBytes = std::uint64_t{256} << 20;
-constexpr std::uint64_t kBudgetPerFileByte = 1024;
-
 // Charges the budget for a part of the file, and keeps the charge.
 BeforeBytes charging(const GltfDocument& document, const std::string& where) {
     return [&document, where](std::uint64_t bytes) {
         document.budget->charge_memory(bytes, document.base.file + ": " + where);
     };
+}
+
+// The bytes that a uri of the JSON names.
+FileBytes read_bytes(const GltfDocument& document, const std::string& uri, const std::string& where,
+                     const BeforeBytes& before) {
+    FileBytes out;
+    if (const DataUri* data = find_data_uri(document.data, uri)) {
+        if (!data->broken.empty()) document.fail(where, "data URI {}", data->broken);
+        out.bytes = data->bytes;
+    } else {
+        out.owned = read_uri(document.base, uri, where, before);
+        out.bytes = out.owned;
+    }
+    return out;
 }
 
 std::optional<ByteSpan> read_buffer(GltfDocument& document, const json& buffer, std::size_t index,
@@ -39,8 +49,9 @@ std::optional<ByteSpan> read_buffer(GltfDocument& document, const json& buffer, 
     ByteSpan bytes = text.binary;
     if (has_uri) {
         const auto& uri = buffer.at("uri").get_ref<const std::string&>();
-        document.owned.push_back(read_uri(document.base, uri, where, charging(document, where)));
-        bytes = document.owned.back();
+        FileBytes file = read_bytes(document, uri, where, charging(document, where));
+        bytes = file.bytes;
+        document.owned.push_back(std::move(file.owned));
     }
     if (bytes.size() < length) {
         document.fail(where, "byteLength is {}, the data hold {} bytes", length, bytes.size());
@@ -48,10 +59,9 @@ std::optional<ByteSpan> read_buffer(GltfDocument& document, const json& buffer, 
     return bytes.first(length);
 }
 
-// Takes the buffers out of the JSON.
+// Takes the buffers out of the JSON, which has `total` bytes, and reads those that are used.
 void read_buffers(GltfDocument& document, json& root, const std::vector<bool>& used,
-                  const GltfText& text) {
-    std::uint64_t total = text.json.size();
+                  const GltfText& text, std::uint64_t total) {
     if (root.contains("buffers")) {
         json& buffers = root.at("buffers");
         for (std::size_t i = 0; i < buffers.size(); ++i) {
@@ -63,81 +73,6 @@ void read_buffers(GltfDocument& document, json& root, const std::vector<bool>& u
         root.erase("buffers");
     }
     document.budget->allow_for_file(total);
-}
-
-// Changes the JSON where tinygltf refuses or loses parts of valid files. It requires a buffer view
-// of each accessor of indices, so these are taken out: returns them by primitive, -1 for none.
-std::vector<int> adapt_to_tinygltf(json& root) {
-    const auto each = [&root](const char* array, const auto& change) {
-        const json::json_pointer place(array);
-        if (!root.contains(place)) return;
-        for (json& element : root.at(place)) change(element);
-    };
-    // tinygltf drops empty objects, and the array's indices with them.
-    each("/extensions/EXT_lights_ies/lights", [](json& light) { light.emplace("name", ""); });
-    std::vector<int> indices;
-    each("/meshes", [&indices](json& mesh) {
-        if (!mesh.contains("primitives")) return;
-        for (json& primitive : mesh.at("primitives")) {
-            indices.push_back(primitive.value("indices", -1));
-            primitive.erase("indices");
-        }
-    });
-    return indices;
-}
-
-std::string one_line(std::string text) {
-    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
-    for (char& c : text) {
-        if (c == '\n') c = ' ';
-    }
-    return text;
-}
-
-void add_images(GltfDocument& document, std::vector<json>& images) {
-    for (json& source : images) {
-        tinygltf::Image image;
-        if (source.contains("name") && source.at("name").is_string())
-            image.name = source.at("name");
-        if (source.contains("uri")) image.uri = std::move(source.at("uri").get_ref<std::string&>());
-        image.mimeType = source.value("mimeType", "");
-        image.bufferView = source.value("bufferView", -1);
-        document.model.images.push_back(std::move(image));
-    }
-}
-
-// Moves an array out of the file.
-std::vector<json> take_array(json& root, const char* name) {
-    std::vector<json> out;
-    if (root.contains(name)) out = std::move(root.at(name).get_ref<json::array_t&>());
-    root.erase(name);
-    return out;
-}
-
-// Reads all but buffers and images, which tinygltf would read without our checks, materials
-// and lights.
-void parse_model(GltfDocument& document, json root) {
-    std::vector<json> images = take_array(root, "images");
-    document.materials = take_array(root, "materials");
-    const json::json_pointer punctual("/extensions/KHR_lights_punctual");
-    if (root.contains(punctual)) document.lights = take_array(root.at(punctual), "lights");
-    const std::vector<int> indices = adapt_to_tinygltf(root);
-    const std::string text = root.dump();
-    if (text.size() > std::numeric_limits<unsigned>::max()) {
-        document.fail("JSON", "is larger than 4 GiB");
-    }
-    std::string error;
-    std::string warning;
-    tinygltf::TinyGLTF reader;
-    if (!reader.LoadASCIIFromString(&document.model, &error, &warning, text.data(),
-                                    static_cast<unsigned>(text.size()), "")) {
-        document.fail("JSON", "is refused by tinygltf: {}", one_line(error));
-    }
-    auto next = indices.begin();
-    for (tinygltf::Mesh& mesh : document.model.meshes) {
-        for (tinygltf::Primitive& primitive : mesh.primitives) primitive.indices = *next++;
-    }
-    add_images(document, images);
 }
 
 ByteSpan view_bytes(const GltfDocument& document, std::size_t index) {
@@ -164,54 +99,7 @@ void resolve_views(GltfDocument& document, const std::vector<bool>& used) {
     }
 }
 
-// Takes bytes from a budget shared with other threads; false when fewer are left.
-bool take(std::atomic<std::uint64_t>& left, std::uint64_t bytes) {
-    std::uint64_t seen = left.load();
-    do {
-        if (bytes > seen) return false;
-    } while (!left.compare_exchange_weak(seen, seen - bytes));
-    return true;
-}
-
 }  // namespace
-
-LoadBudget::LoadBudget(std::uint64_t memory_bytes)
-    : memory_limit_(memory_bytes), memory_left_(memory_bytes) {}
-
-void LoadBudget::allow_for_file(std::uint64_t file_bytes) {
-    decode_left_ = decode_limit_ = kBudgetFloorBytes + kBudgetPerFileByte * file_bytes;
-}
-
-void LoadBudget::charge(std::uint64_t count, std::uint64_t bytes_each, const std::string& where) {
-    const bool overflows = bytes_each != 0 && count > decode_limit_ / bytes_each;
-    if (overflows || !take(decode_left_, count * bytes_each)) {
-        throw Error(
-            fmt::format("{}: claims {} elements of {} bytes, more than a file of this size "
-                        "may decode to ({})",
-                        where, count, bytes_each, mebibytes(decode_limit_)));
-    }
-    charge_memory(count * bytes_each, where);
-}
-
-void LoadBudget::charge_memory(std::uint64_t bytes, const std::string& where) {
-    if (take(memory_left_, bytes)) return;
-    throw Error(
-        fmt::format("{}: needs {} of memory, {} MiB of {} for buffers, images and meshes are "
-                    "left (--max-memory)",
-                    where, mebibytes(bytes), memory_left_ >> 20, mebibytes(memory_limit_)));
-}
-
-MemoryCharge LoadBudget::borrow_memory(std::uint64_t bytes, const std::string& where) {
-    charge_memory(bytes, where);
-    return MemoryCharge(this, ReleaseMemory{bytes});
-}
-
-void ReleaseMemory::operator()(LoadBudget* budget) const { budget->release_memory(bytes); }
-
-void LoadBudget::refill() {
-    memory_left_ += decode_limit_ - decode_left_;
-    decode_left_ = decode_limit_;
-}
 
 void GltfDocument::leave_out(const std::string& what) const {
     if (options.strict) throw Error(base.file + ": --strict: " + what);
@@ -221,11 +109,11 @@ void GltfDocument::leave_out(const std::string& what) const {
 FileBytes read_source(const GltfDocument& document, const std::string& uri, int view,
                       const std::string& where) {
     if (uri.empty()) return {{}, document.views[static_cast<std::size_t>(view)]};
-    FileBytes out;
-    out.owned = read_uri(document.base, uri, where, [&](std::uint64_t bytes) {
-        out.charge = document.budget->borrow_memory(bytes, document.base.file + ": " + where);
+    MemoryCharge charge;
+    FileBytes out = read_bytes(document, uri, where, [&](std::uint64_t bytes) {
+        charge = document.budget->borrow_memory(bytes, document.base.file + ": " + where);
     });
-    out.bytes = out.owned;
+    out.charge = std::move(charge);
     return out;
 }
 
@@ -266,19 +154,24 @@ GltfDocument load_gltf_document(const std::filesystem::path& file, const LoadOpt
         document.budget->charge_memory(bytes, document.base.file);
     };
     GltfText text = read_gltf_text(file, document.base.file, charge_file);
-    const MemoryCharge values =
-        document.budget->borrow_memory(text.json.size(), document.base.file + ": JSON");
-    auto [root, broken_animations] = parse_gltf_json(text.json, document.base.file);
+    const std::uint64_t json_bytes = text.json.size();
+    JsonText surveyed = survey_json(text.file, text.json, charge_file);
+    document.data = std::move(surveyed.data);
+    const std::uint64_t parsed_bytes = surveyed.parsed_bytes;
+    document.budget->charge_memory(parsed_bytes, document.base.file + ": JSON");
+    auto [root, broken_animations] = parse_gltf_json(surveyed, document.base.file);
     document.broken_animations = std::move(broken_animations);
-    const UsedParts used = used_parts(root);
-    read_buffers(document, root, used.buffers, text);
-    if (text.has_binary) {
+    document.budget->release_memory(surveyed.short_text.size());
+    surveyed = {};
+    if (text.has_binary || !document.data.empty()) {
         document.owned.push_back(std::move(text.file));
     } else {
         document.budget->release_memory(text.file.size());
         text = {};
     }
-    parse_model(document, std::move(root));
+    const UsedParts used = used_parts(root);
+    read_buffers(document, root, used.buffers, text, json_bytes);
+    parse_model(document, std::move(root), parsed_bytes);
     check_extensions(document);
     apply_variant(document);
     document.clips = choose_clips(document);

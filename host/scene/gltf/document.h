@@ -7,7 +7,6 @@
 #include <fmt/core.h>
 #include <tiny_gltf.h>
 
-#include <atomic>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -18,51 +17,11 @@
 
 #include "host/base/error.h"
 #include "host/scene/gltf/files.h"
+#include "host/scene/gltf/json/json_text.h"
+#include "host/scene/gltf/load_budget.h"
 #include "host/scene/gltf/load_scene.h"
 
 namespace kilolux {
-
-class LoadBudget;
-struct ReleaseMemory {
-    std::uint64_t bytes = 0;
-    void operator()(LoadBudget* budget) const;
-};
-
-/// Memory that returns to its budget when this is destroyed.
-using MemoryCharge = std::unique_ptr<LoadBudget, ReleaseMemory>;
-
-/// Memory that loading a file may still allocate. Safe to charge from several threads.
-class LoadBudget {
- public:
-    /// All that the scene keeps in memory is bounded by `memory_bytes`.
-    explicit LoadBudget(std::uint64_t memory_bytes);
-
-    /// Bounds what charge() takes by the size of the file's JSON and buffers, so that a small
-    /// broken file cannot claim all memory.
-    void allow_for_file(std::uint64_t file_bytes);
-
-    /// Takes count * bytes_each for what accessors decode to. Throws Error that starts with
-    /// "<where>: " when that is more than the file's size or the memory allows.
-    void charge(std::uint64_t count, std::uint64_t bytes_each, const std::string& where);
-
-    /// Takes bytes for a buffer or an image, which only the memory bounds.
-    void charge_memory(std::uint64_t bytes, const std::string& where);
-
-    /// The same until the charge is destroyed.
-    MemoryCharge borrow_memory(std::uint64_t bytes, const std::string& where);
-
-    /// Gives back what charge_memory() took.
-    void release_memory(std::uint64_t bytes) { memory_left_ += bytes; }
-
-    /// Gives back what charge() took: later decoding replaces the earlier results.
-    void refill();
-
- private:
-    std::uint64_t memory_limit_;
-    std::atomic<std::uint64_t> memory_left_;
-    std::uint64_t decode_limit_ = 0;
-    std::atomic<std::uint64_t> decode_left_ = 0;
-};
 
 /// A glTF file whose JSON is checked and whose buffers are in memory.
 ///
@@ -77,7 +36,8 @@ struct GltfDocument {
     std::vector<nlohmann::json> lights;            // of KHR_lights_punctual
     std::vector<std::optional<ByteSpan>> buffers;  // none: a placeholder without data, or not used
     std::vector<ByteSpan> views;                   // one per buffer view, decompressed
-    std::vector<Bytes> owned;                      // what buffers and views point into
+    std::vector<Bytes> owned;                      // what buffers, views and data point into
+    std::vector<DataUri> data;                     // the JSON's long data URIs
     std::vector<std::size_t> clips;                // animations that play, first one first
     std::map<std::size_t, std::string> broken_animations;  // why, by index; empty in `model`
     std::unique_ptr<LoadBudget> budget;

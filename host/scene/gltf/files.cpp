@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/gltf/files.h"
 
-#define TINYGLTF_NO_STB_IMAGE
-#define TINYGLTF_NO_STB_IMAGE_WRITE
 #include <fmt/core.h>
-#include <tiny_gltf.h>
 
 #include <algorithm>
 #include <cctype>
@@ -15,6 +12,7 @@
 #include "host/base/error.h"
 #include "host/base/log.h"
 #include "host/base/text.h"
+#include "host/scene/gltf/json/json_text.h"
 
 namespace kilolux {
 namespace {
@@ -27,9 +25,6 @@ constexpr std::uint32_t kJsonChunk = 0x4E4F534A;  // "JSON"
 constexpr std::uint32_t kBinChunk = 0x004E4942;   // "BIN\0"
 constexpr std::size_t kHeaderBytes = 12;
 constexpr std::size_t kChunkHeaderBytes = 8;
-
-constexpr std::string_view kBase64 =
-    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
 std::uint32_t read_u32(ByteSpan bytes, std::size_t offset) {
     std::uint32_t value = 0;
@@ -116,43 +111,41 @@ void split_glb(GltfText& out, const std::string& name) {
     }
 }
 
-// Bytes of a regular file. `where` starts the error message.
-Bytes read_file_bytes(const fs::path& path, const std::string& where, const BeforeBytes& before) {
+// The size of a regular file. `where` starts the error message.
+std::uint64_t size_of_file(const fs::path& path, const std::string& where) {
     std::error_code error;
     if (!fs::is_regular_file(path, error)) {
         throw Error(where + ": " + (error ? "no such file" : "is not a regular file"));
     }
     const std::uint64_t size = fs::file_size(path, error);
     if (error) throw Error(where + ": cannot be read: " + error.message());
-    before(size);
+    return size;
+}
+
+// The next bytes of a file.
+Bytes read_next(std::ifstream& in, std::uint64_t size, const std::string& where) {
     Bytes bytes(size);
-    std::ifstream in(path, std::ios::binary);
     in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     if (!in) throw Error(where + ": cannot be read");
     return bytes;
 }
 
-// By blocks, so that the reader's copies stay small.
-Bytes decode_base64(std::string_view text, const std::string& where, const BeforeBytes& before) {
-    constexpr std::size_t kBlock = std::size_t{1} << 20;  // a multiple of 4
-    while (!text.empty() && text.back() == '=') text.remove_suffix(1);
-    const std::size_t bad = std::min(text.find_first_not_of(kBase64), text.size());
-    if (bad < text.size() || text.size() % 4 == 1) {
-        throw Error(
-            fmt::format("{}: data URI holds broken base64 at its character {}", where, bad));
-    }
+// Bytes of a regular file.
+Bytes read_file_bytes(const fs::path& path, const std::string& where, const BeforeBytes& before) {
+    const std::uint64_t size = size_of_file(path, where);
+    before(size);
+    std::ifstream in(path, std::ios::binary);
+    return read_next(in, size, where);
+}
+
+Bytes decode_base64_uri(std::string_view text, const std::string& where,
+                        const BeforeBytes& before) {
     before(text.size() / 4 * 3 + 3);
-    Bytes out;
-    out.reserve(text.size() / 4 * 3 + 3);
-    for (std::size_t begin = 0; begin < text.size(); begin += kBlock) {
-        Bytes block;
-        std::string mime_type;
-        const std::string uri =
-            "data:application/octet-stream;base64," + std::string(text.substr(begin, kBlock));
-        if (!tinygltf::DecodeDataURI(&block, mime_type, uri, 0, false)) {
-            throw Error(where + ": data URI holds broken base64");
-        }
-        out.insert(out.end(), block.begin(), block.end());
+    Bytes out(text.size() / 4 * 3 + 3);
+    try {
+        out.resize(decode_base64(text, out.data()));
+    } catch (const Error& error) {
+        throw Error(where + ": data URI " + error.what());
     }
     return out;
 }
@@ -161,7 +154,7 @@ Bytes read_data_uri(const std::string& uri, const std::string& where, const Befo
     const std::size_t comma = uri.find(',');
     if (comma == std::string::npos) throw Error(where + ": data URI has no ','");
     if (lower(uri.substr(0, comma)).ends_with(";base64")) {
-        return decode_base64(std::string_view(uri).substr(comma + 1), where, before);
+        return decode_base64_uri(std::string_view(uri).substr(comma + 1), where, before);
     }
     before(uri.size());
     const std::string decoded = percent_decoded(uri.substr(comma + 1));
@@ -248,6 +241,22 @@ GltfText read_gltf_text(const fs::path& file, const std::string& name, const Bef
     out.json = as_text(out.file);
     if (out.file.size() >= 4 && read_u32(out.file, 0) == kMagic) split_glb(out, name);
     return out;
+}
+
+Bytes read_gltf_json(const fs::path& file) {
+    constexpr std::uint64_t kHeaders = kHeaderBytes + kChunkHeaderBytes;
+    const std::string name = file.string();
+    std::uint64_t size = size_of_file(file, name);
+    std::ifstream in(file, std::ios::binary);
+    if (size >= kHeaders) {
+        const Bytes headers = read_next(in, kHeaders, name);
+        if (read_u32(headers, 0) == kMagic) {
+            size = std::min<std::uint64_t>(size - kHeaders, read_u32(headers, kHeaderBytes));
+        } else {
+            in.seekg(0);
+        }
+    }
+    return read_next(in, size, name);
 }
 
 bool is_data_uri(const std::string& uri) { return lower(uri.substr(0, 5)) == "data:"; }

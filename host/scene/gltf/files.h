@@ -30,6 +30,9 @@ GltfText read_gltf_text(
     const std::filesystem::path& file, const std::string& name,
     const BeforeBytes& before = [](std::uint64_t) {});
 
+/// The JSON of a .gltf or .glb file, and nothing else of it. Throws Error.
+Bytes read_gltf_json(const std::filesystem::path& file);
+
 /// The folder and the name that a scene file's URIs are relative to.
 struct UriBase {
     std::string file;  // the scene file, as error messages name it

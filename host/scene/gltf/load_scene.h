@@ -21,8 +21,8 @@ struct LineWidth {
 struct LoadOptions {
     double time = 0.0;                 // [s] at which the file's animations are evaluated
     bool allow_outside_paths = false;  // URIs and links may leave the scene file's folder
-    /// Bytes that buffers, decoded images and decoded meshes may take together; 0: half of what is
-    /// available. The JSON and what a decoder needs meanwhile come on top.
+    /// Bytes that the JSON, buffers, decoded images and decoded meshes may take together; 0: half
+    /// of what is available. What a decoder needs meanwhile comes on top.
     std::uint64_t max_memory_bytes = 0;
     /// Animations that play, by name or index, or "all" or "none"; empty: the file's first.
     std::vector<std::string> clips{};

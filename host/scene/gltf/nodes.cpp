@@ -111,6 +111,7 @@ PlacedNodes place_nodes(const GltfDocument& document) {
     const std::vector<std::size_t> order = walk(document, roots);
     check_acyclic(document, order);
     std::vector<NodePose> poses;
+    poses.reserve(nodes.size());
     for (const tinygltf::Node& node : nodes) poses.push_back(rest_pose(node));
     apply_animations(document, poses);
     PlacedNodes out;

@@ -40,7 +40,7 @@ void MoveLights::upload(std::size_t gap_at, std::size_t gap) {
 
 DeviceArray<Light> MoveLights::enqueue(const PointPair& eye, StageTimer& timer) {
     const DeviceArray<WorldLight> world = world_.get();
-    const DeviceArray<Light> out = lights_.reserve(world.count());
+    DeviceArray<Light> out = lights_.reserve(world.count());
     if (world.count() == 0) return out;
     move_.enqueue(items(world.count(), tuning_.light_group), timer, world,
                   static_cast<uint>(world.count()), eye.high, eye.low, out);

@@ -59,8 +59,8 @@ BuildClusters::BuildClusters(const Gpu& gpu)
 
 ClusterBoxes BuildClusters::enqueue(const View& view, const ClusterGrid& grid, StageTimer& timer) {
     const std::size_t slices = grid.slices;
-    const ClusterBoxes out{grid, columns_.reserve(slices * grid.tiles_x),
-                           rows_.reserve(slices * grid.tiles_y), depths_.reserve(slices)};
+    ClusterBoxes out{grid, columns_.reserve(slices * grid.tiles_x),
+                     rows_.reserve(slices * grid.tiles_y), depths_.reserve(slices)};
     const WorkSize size{cl::NDRange(std::max(grid.tiles_x, grid.tiles_y), slices),
                         cl::NDRange(1, 1)};
     kernel_.enqueue(size, timer, view, out);

@@ -18,7 +18,7 @@ CountLights::CountLights(const Gpu& gpu, const Tuning& tuning, const KernelFeatu
 LightCounts CountLights::enqueue(const LitPixels& lit, StageTimer& timer) {
     const View& view = lit.gbuffer.view;
     const std::size_t pixels = std::size_t{view.stride} * view.height;
-    const LightCounts out{evaluated_.reserve(pixels), covering_.reserve(pixels)};
+    LightCounts out{evaluated_.reserve(pixels), covering_.reserve(pixels)};
     kernel_.enqueue(kernel_.pixel_items(view, tuning_.shade_rows), timer, lit, out.evaluated,
                     out.covering);
     return out;

@@ -60,7 +60,7 @@ CoarseLists CullLights::enqueue(const PreparedLights& lights, const ClusterBoxes
     count_.enqueue(size, timer, lights, boxes, occupied, cursors);
     offset_.enqueue(offset_.vector_items(stride, tuning_.light_group), timer, grid.cluster_count,
                     static_cast<uint>(chunks), cursors, counts);
-    const CoarseLists out = lists_so_far(lists_.enqueue_offsets(grid.cluster_count, timer));
+    CoarseLists out = lists_so_far(lists_.enqueue_offsets(grid.cluster_count, timer));
     fill_.enqueue(size, timer, lights, boxes, occupied, cursors, out);
     return out;
 }
@@ -76,7 +76,7 @@ CoarseLists CullLights::brute_force(const PreparedLights& lights, const ClusterB
     run(0, {});
     const DeviceArray<uint> offsets = lists_.enqueue_offsets(grid.cluster_count, timer);
     fits();
-    const CoarseLists out = lists_so_far(offsets);
+    CoarseLists out = lists_so_far(offsets);
     run(1, out);
     return out;
 }

@@ -57,7 +57,7 @@ CountedList::CountedList(const Gpu& gpu, const Tuning& tuning, std::string_view 
       entries_(gpu, stage) {}
 
 DeviceArray<uint> CountedList::enqueue_offsets(uint n, StageTimer& timer) {
-    const DeviceArray<uint> offsets = offsets_.reserve(n + std::size_t{1});
+    DeviceArray<uint> offsets = offsets_.reserve(n + std::size_t{1});
     prefix_sum_.enqueue(counts_.get(), n, offsets, timer);
     return offsets;
 }

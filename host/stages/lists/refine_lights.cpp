@@ -29,7 +29,7 @@ RefinedLists RefineLights::enqueue(const PreparedLights& lights, const CoarseLis
                                    const ActiveClusters& clusters, const View& view,
                                    StageTimer& timer) {
     const uint tiles = clusters.tile_count;
-    const RefinedLists out{lists_.entries<std::byte>(), lists_.capacity()};
+    RefinedLists out{lists_.entries<std::byte>(), lists_.capacity()};
     reserve_.enqueue(items(tiles, tuning_.light_group), timer, view, clusters, tiles, coarse,
                      lists_.counts(tiles));
     const DeviceArray<uint> offsets = lists_.enqueue_offsets(tiles, timer);

@@ -50,7 +50,7 @@ std::vector<bool> AdaptiveSamples::open_tiles() const {
 }
 
 Radiance AdaptiveSamples::mean(StageTimer& timer) {
-    const Radiance out{mean_.reserve(3 * size_of(view_)), view_};
+    Radiance out{mean_.reserve(3 * size_of(view_)), view_};
     mean_kernel_.enqueue(mean_kernel_.pixel_items(view_, tuning_.shade_rows), timer, view_,
                          taken_[0], state_.get(), fixed_.get(), out.planes,
                          variance_.reserve(size_of(view_)));

@@ -18,7 +18,7 @@ CountSeen::CountSeen(const Gpu& gpu, const Tuning& tuning, const KernelFeatures&
 SeenCounts CountSeen::enqueue(const LitPixels& lit, const ShadowWords& shadows, StageTimer& timer) {
     const View& view = lit.gbuffer.view;
     const std::size_t pixels = std::size_t{view.stride} * view.height;
-    const SeenCounts out{facing_.reserve(pixels), seen_.reserve(pixels)};
+    SeenCounts out{facing_.reserve(pixels), seen_.reserve(pixels)};
     kernel_.enqueue(kernel_.pixel_items(view, tuning_.shade_rows), timer, lit, shadows, out.facing,
                     out.seen);
     return out;

@@ -19,7 +19,7 @@ DecodeGBuffer::DecodeGBuffer(const Gpu& gpu, const Tuning& tuning, const KernelF
 
 DeviceArray<float> DecodeGBuffer::enqueue(const GBuffer& gbuffer, StageTimer& timer) {
     const View& view = gbuffer.view;
-    const auto planes = planes_.reserve(std::size_t{plane_count_} * view.stride * view.height);
+    auto planes = planes_.reserve(std::size_t{plane_count_} * view.stride * view.height);
     kernel_.enqueue(kernel_.pixel_items(view, tuning_.shade_rows), timer, gbuffer, planes);
     return planes;
 }

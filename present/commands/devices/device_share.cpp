@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <thread>
+#include <utility>
+
 #include "host/base/error.h"
 #include "host/base/log.h"
 
@@ -34,13 +37,19 @@ std::string share_lines(const std::vector<DeviceShare>& shares) {
 nlohmann::ordered_json shares_json(const std::vector<DeviceShare>& shares) {
     auto out = nlohmann::ordered_json::array();
     for (const DeviceShare& share : shares) {
-        nlohmann::ordered_json entry = {
-            {"index", share.index}, {"name", share.info.name},         {"pictures", share.pictures},
-            {"rows", share.rows},   {"rows_ms", share.stats.frame_ms}, {"failure", nullptr}};
-        if (!share.failure.empty()) entry["failure"] = share.failure;
-        out.push_back(std::move(entry));
+        out.push_back({{"index", share.index},
+                       {"name", share.info.name},
+                       {"pictures", share.pictures},
+                       {"rows", share.rows},
+                       {"rows_ms", share.stats.frame_ms},
+                       {"failure", failure_json(share)}});
     }
     return out;
+}
+
+nlohmann::ordered_json failure_json(const DeviceShare& share) {
+    if (share.failure.empty()) return nullptr;
+    return share.failure;
 }
 
 std::string failures_of(const std::vector<DeviceShare>& shares) {
@@ -67,6 +76,20 @@ void run_share(DeviceShare& share, std::atomic<std::size_t>& left,
         if (--left == 0) return fail(std::current_exception());
         warn(fmt::format("device {} is left out: {}", device_text(share), error.what()));
     }
+}
+
+void run_shares(std::vector<DeviceShare>& shares, std::atomic<std::size_t>& left,
+                SharedTasks& queue, const std::function<void(std::size_t device)>& work) {
+    const auto run = [&](std::size_t i) {
+        run_share(
+            shares[i], left, [&](std::exception_ptr e) { queue.fail(std::move(e)); },
+            [&] { work(i); });
+    };
+    std::vector<std::jthread> threads;
+    for (std::size_t i = 1; i < shares.size(); ++i) threads.emplace_back(run, i);
+    run(0);
+    threads.clear();  // waits for them
+    queue.rethrow();
 }
 
 }  // namespace kilolux

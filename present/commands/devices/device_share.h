@@ -12,6 +12,7 @@
 
 #include "host/gpu/device.h"
 #include "host/picture/frame.h"
+#include "present/commands/devices/shared_tasks.h"
 
 namespace kilolux {
 
@@ -19,7 +20,8 @@ namespace kilolux {
 struct DeviceShare {
     std::string index;  // of --list-devices
     DeviceInfo info{};
-    std::size_t pictures = 0;  // whole ones
+    std::size_t pictures = 0;  // whole ones; of a report, settings whose errors it measured
+    bool has_timed = false;    // all settings of a report
     // Of a picture that is made by rows.
     int rows = 0;
     FrameStats stats{};
@@ -38,6 +40,9 @@ std::string share_lines(const std::vector<DeviceShare>& shares);
 /// The list of --stats.
 nlohmann::ordered_json shares_json(const std::vector<DeviceShare>& shares);
 
+/// Null where it did not fail.
+nlohmann::ordered_json failure_json(const DeviceShare& share);
+
 /// Which devices failed, and with what; empty: none.
 std::string failures_of(const std::vector<DeviceShare>& shares);
 
@@ -47,5 +52,10 @@ std::string failures_of(const std::vector<DeviceShare>& shares);
 void run_share(DeviceShare& share, std::atomic<std::size_t>& left,
                const std::function<void(std::exception_ptr)>& fail,
                const std::function<void()>& run) noexcept;
+
+/// The shares' devices do the tasks of a queue: run_share() of work(i) for each, [0] in this
+/// thread. Waits for all; throws what the queue failed with.
+void run_shares(std::vector<DeviceShare>& shares, std::atomic<std::size_t>& left,
+                SharedTasks& queue, const std::function<void(std::size_t device)>& work);
 
 }  // namespace kilolux

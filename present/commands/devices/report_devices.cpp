@@ -5,7 +5,6 @@
 
 #include <atomic>
 #include <exception>
-#include <thread>
 #include <utility>
 
 #include "host/base/system/interrupt.h"
@@ -46,18 +45,10 @@ std::vector<ComparedRow> compare_on(std::vector<DeviceShare>& shares,
                                     std::atomic<std::size_t>& left, ReportRun& run,
                                     const ReportJob& job) {
     Comparing all{run, job};
-    const auto fail = [&](std::exception_ptr failure) { all.queue.fail(std::move(failure)); };
-    std::vector<std::jthread> threads;
-    for (std::size_t i = 1; i < shares.size(); ++i) {
-        threads.emplace_back([&, i] {
-            run_share(shares[i], left, fail, [&] {
-                compare_settings(all, opened_device(shares[i], job.view), shares[i]);
-            });
-        });
-    }
-    run_share(shares[0], left, fail, [&] { compare_settings(all, run.device(), shares[0]); });
-    threads.clear();  // waits for them
-    all.queue.rethrow();
+    run_shares(shares, left, all.queue, [&](std::size_t i) {
+        const ReportDevice device = i == 0 ? run.device() : opened_device(shares[i], job.view);
+        compare_settings(all, device, shares[i]);
+    });
     return std::move(all.rows);
 }
 
@@ -73,8 +64,8 @@ std::vector<ReportRow> timed_rows(ReportRun& run, const std::vector<ComparedRow>
 
 SharedReport measure_on(const std::vector<std::string>& devices, ReportRun& run,
                         const ReportJob& job) {
-    SharedReport out;
-    std::vector<DeviceShare> shares = shares_of(devices);
+    SharedReport out{{}, shares_of(devices)};
+    std::vector<DeviceShare>& shares = out.shares;
     std::atomic<std::size_t> left = shares.size();
     run.on_progress(job.on_progress);
     const std::vector<ComparedRow> compared = compare_on(shares, left, run, job);
@@ -91,42 +82,27 @@ SharedReport measure_on(const std::vector<std::string>& devices, ReportRun& run,
         run.on_progress([] {});  // of another device that starts anew
     }
     if (failure) std::rethrow_exception(failure);
-    for (const DeviceShare& share : shares) {
-        out.shares.push_back({device_text(share), share.pictures, false, share.failure});
-    }
-    out.shares[timing - 1].has_timed = true;
+    shares[timing - 1].has_timed = true;
     return out;
 }
 
-std::string share_lines(const std::vector<ReportShare>& shares) {
+std::string report_lines(const std::vector<DeviceShare>& shares) {
     std::string out;
-    for (const ReportShare& share : shares) {
-        out += fmt::format("device {}: errors of {} settings{}{}\n", share.device, share.settings,
-                           share.has_timed ? ", all times" : "",
+    for (const DeviceShare& share : shares) {
+        out += fmt::format("device {}: errors of {} settings{}{}\n", device_text(share),
+                           share.pictures, share.has_timed ? ", all times" : "",
                            share.failure.empty() ? "" : "; left out: " + share.failure);
     }
     return out;
 }
 
-nlohmann::ordered_json shares_json(const std::vector<ReportShare>& shares) {
+nlohmann::ordered_json report_json(const std::vector<DeviceShare>& shares) {
     auto out = nlohmann::ordered_json::array();
-    for (const ReportShare& share : shares) {
-        nlohmann::ordered_json entry = {{"device", share.device},
-                                        {"settings", share.settings},
-                                        {"times", share.has_timed},
-                                        {"failure", nullptr}};
-        if (!share.failure.empty()) entry["failure"] = share.failure;
-        out.push_back(std::move(entry));
-    }
-    return out;
-}
-
-std::string failures_of(const std::vector<ReportShare>& shares) {
-    std::string out;
-    for (const ReportShare& share : shares) {
-        if (share.failure.empty()) continue;
-        out += fmt::format("{}device {} failed: {}", out.empty() ? "" : "; ", share.device,
-                           share.failure);
+    for (const DeviceShare& share : shares) {
+        out.push_back({{"device", device_text(share)},
+                       {"settings", share.pictures},
+                       {"times", share.has_timed},
+                       {"failure", failure_json(share)}});
     }
     return out;
 }

@@ -8,21 +8,14 @@
 #include <vector>
 
 #include "host/measure/report/run.h"
+#include "present/commands/devices/device_share.h"
 
 namespace kilolux {
-
-/// What a device did of a report.
-struct ReportShare {
-    std::string device;        // index and name
-    std::size_t settings = 0;  // whose errors it measured
-    bool has_timed = false;    // all settings
-    std::string failure{};     // why it was left out; empty: it was not
-};
 
 /// Rows in the order of the settings, and each device's part.
 struct SharedReport {
     std::vector<ReportRow> rows;
-    std::vector<ReportShare> shares;
+    std::vector<DeviceShare> shares;
 };
 
 /// What is measured.
@@ -42,11 +35,9 @@ SharedReport measure_on(const std::vector<std::string>& devices, ReportRun& run,
                         const ReportJob& job);
 
 /// "device 0 (its name): errors of 7 settings, all times", a line a device.
-std::string share_lines(const std::vector<ReportShare>& shares);
+std::string report_lines(const std::vector<DeviceShare>& shares);
 
-nlohmann::ordered_json shares_json(const std::vector<ReportShare>& shares);
-
-/// Which devices failed, and with what; empty: none.
-std::string failures_of(const std::vector<ReportShare>& shares);
+/// The list of the report's context.
+nlohmann::ordered_json report_json(const std::vector<DeviceShare>& shares);
 
 }  // namespace kilolux

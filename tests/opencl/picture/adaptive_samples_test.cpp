@@ -161,6 +161,24 @@ TEST(AdaptiveSamples, TilesEndWhereTheirErrorIsTheOneAskedFor) {
     EXPECT_GT(std::sqrt(seen), 0.85 * kError);
 }
 
+// Values 1 and 3 by turns: n samples of a half differ from their mean by n in all, so the estimated
+// variance of both halves' mean is 1 / (2 (n - 1)), and as many degrees of freedom grant its error.
+TEST(AdaptiveSamples, FewSamplesAreGrantedLess) {
+    constexpr double kTaken = 4.0;
+    const double variance = 1.0 / (2.0 * (kTaken - 1.0));
+    const double granted = 1.0 + std::sqrt(2.0 / (kTaken - 1.0));
+    const double limit = std::sqrt(variance * granted / (4.0 + kFloor * kFloor));
+    for (const double share : {0.999, 1.001}) {
+        Feed feed{test_gpu(), view_with(16, 16)};
+        int values = 0;
+        feed.run(static_cast<float>(share * limit), 4, [&](uint x, uint y) {
+            if (x == 0 && y == 0) ++values;
+            return values % 2 == 0 ? 1.0f : 3.0f;
+        });
+        EXPECT_EQ(feed.open(), share < 1.0 ? 1 : 0) << share;
+    }
+}
+
 TEST(AdaptiveSamples, TilesThatNeverAgreeTakeTheMostAndAreTold) {
     Feed feed{test_gpu(), view_with(48, 16)};
     Random random(5);

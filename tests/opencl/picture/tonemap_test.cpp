@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "host/certify/synthetic/probe.h"
 #include "host/certify/synthetic/random.h"
 #include "kernels/shared/tone_curve.h"
 #include "tests/support/test_gpu.h"
@@ -195,6 +196,37 @@ TEST(Tonemap, NotANumberAndNegativeAreBlackAndInfiniteIsWhite) {
                 EXPECT_EQ(display[static_cast<std::size_t>(i)], 0xffffffffu) << "color " << i;
         }
     }
+}
+
+constexpr std::string_view kToneCurve[] = {"kernels/device/lanes.h", "kernels/shared/tone_curve.h"};
+constexpr std::string_view kBackdropProbe = R"(
+kernel void are_backdrops(global const float* in, global int* out) {
+    size_t i = get_global_id(0);
+    float3 c = vload3(2 * i, in), backdrop = vload3(2 * i + 1, in);
+    out[i] = is_backdrop(fv3(c.x, c.y, c.z), fv3(backdrop.x, backdrop.y, backdrop.z)) ? 1 : 0;
+}
+)";
+
+// Light that differs from the backdrop in one channel alone is none; a few roundings are.
+TEST(Tonemap, ABackdropIsToldFromLightByEveryChannel) {
+    Gpu gpu = test_gpu(1);
+    const std::array<float, 3> backdrop = {0.3f, 0.5f, 0.2f};
+    std::vector<float> in;
+    std::vector<int> expected;
+    for (const float times : {1.0f, 1.0f + 3e-7f, 1.01f, kNan}) {
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            std::array<float, 3> light = backdrop;
+            light[channel] *= times;
+            in.insert(in.end(), light.begin(), light.end());
+            in.insert(in.end(), backdrop.begin(), backdrop.end());
+            expected.push_back(times < 1.001f ? 1 : 0);
+        }
+    }
+    const cl::Program program = build_probe(gpu, kToneCurve, kBackdropProbe);
+    const cl::Buffer out = new_buffer(gpu, std::vector<int>(expected.size(), 7));
+    cl::KernelFunctor<cl::Buffer, cl::Buffer>(program, "are_backdrops")(
+        cl::EnqueueArgs(gpu.queue, cl::NDRange(expected.size())), new_buffer(gpu, in), out);
+    EXPECT_EQ(download<int>(gpu, out, expected.size()), expected);
 }
 
 TEST(Tonemap, ImagesOfAnySize) {

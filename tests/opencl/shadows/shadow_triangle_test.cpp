@@ -2,6 +2,8 @@
 // Which rays pass a triangle's box, against double.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <glm/glm.hpp>
 #include <limits>
 #include <random>
@@ -82,6 +84,34 @@ TEST(ShadowTriangle, RaysPassItsBoxAsInDouble) {
         EXPECT_GT(passing, 500);
         EXPECT_LT(passing, 10000);
     }
+}
+
+// Rays that touch a corner of a box pass it, though their points are nearer to the origin, and so
+// have finer floats, than light and box.
+TEST(ShadowTriangle, RaysThatTouchABoxPassIt) {
+    std::mt19937 random(12);
+    std::uniform_real_distribution<double> unit(0.05, 1.0), sign(-1.0, 1.0);
+    std::vector<Ray> rays;
+    while (rays.size() < 20000) {
+        Ray ray;
+        glm::dvec3 half;
+        for (int axis = 0; axis < 3; ++axis) {
+            ray.point[axis] = static_cast<float>(1e-5 * sign(random));
+            ray.light[axis] = static_cast<float>(std::copysign(unit(random), sign(random)));
+            half[axis] = 0.2 * unit(random);
+        }
+        // The box hangs off the ray by one of its edges.
+        const glm::dvec3 p(ray.point), d = glm::dvec3(ray.light) - p;
+        const int along = static_cast<int>(rays.size() % 3), across = (along + 1) % 3;
+        glm::dvec3 middle = p + 0.6 * d;
+        middle[along] += std::copysign(half[along], d[along]);
+        middle[across] -= std::copysign(half[across], d[across]);
+        ray.middle = glm::vec3(middle);
+        ray.half_edge = glm::vec3(half);
+        if (passes(ray, false, 0.0)) rays.push_back(ray);
+    }
+    const std::vector<int> found = passes_on_device(rays, false);
+    EXPECT_EQ(std::ranges::count(found, 0), 0);
 }
 
 constexpr std::string_view kPlaneProbe = R"(

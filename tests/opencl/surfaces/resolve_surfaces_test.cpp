@@ -37,27 +37,45 @@ View small_view() {
     return view;
 }
 
+SurfaceMaterial quad_material() {
+    SurfaceMaterial out{};
+    out.row.base_color = {1.0f, 0.5f, 1.0f, 1.0f};
+    out.row.factors = {0.25f, 0.75f, 1.0f, 1.0f};
+    for (uint& texture : out.textures) texture = SURFACE_ABSENT;
+    out.textures[USE_BASE_COLOR] = out.textures[USE_NORMAL] = 0;
+    out.lookup_use = USE_BASE_COLOR;
+    out.flags = MATERIAL_SHARES_LOOKUP << USE_BASE_COLOR | MATERIAL_SHARES_LOOKUP << USE_NORMAL |
+                MATERIAL_MASKED;
+    out.row.emissive_cutoff.w = 0.5f;  // texels' alpha is 1
+    return out;
+}
+
 // Owns the buffers that SurfaceBuffers refer to.
 class QuadScene {
  public:
     // `repeats` of the texture along each edge.
-    explicit QuadScene(const Gpu& gpu, float repeats = 1.0f) : gpu_(gpu) {
-        // Position, normal, tangent, texcoord; a rectangle at depth 2 that leaves the left columns.
+    explicit QuadScene(const Gpu& gpu, float repeats = 1.0f,
+                       const SurfaceMaterial& material = quad_material())
+        : gpu_(gpu) {
+        // Position, normal, tangent, texcoords, colour; a rectangle at depth 2 that leaves the left
+        // columns. The second texcoords are turned; the colour's alpha falls from left to right.
         constexpr float kEdge = 1.6f;
         std::vector<float> vertices;
         for (const auto& [x, y, u, v] :
              {std::array{-kEdge, -9.0f, 0.0f, 1.0f}, std::array{9.0f, -9.0f, 1.0f, 1.0f},
               std::array{9.0f, 9.0f, 1.0f, 0.0f}, std::array{-kEdge, 9.0f, 0.0f, 0.0f}}) {
-            const std::array row = {x,    y,    -2.0f, 0.0f, 0.0f,        1.0f,
-                                    1.0f, 0.0f, 0.0f,  1.0f, u * repeats, v * repeats};
+            const std::array row = {x,           y,           -2.0f, 0.0f, 0.0f,        1.0f,
+                                    1.0f,        0.0f,        0.0f,  1.0f, u * repeats, v * repeats,
+                                    v * repeats, u * repeats, 1.0f,  1.0f, 1.0f,        1.0f - u};
             vertices.insert(vertices.end(), row.begin(), row.end());
         }
         MeshRow mesh{};
-        mesh.vertex_floats = 12;
+        mesh.vertex_floats = 18;
         mesh.normal = 3;
         mesh.tangent = 6;
         mesh.texcoord0 = 10;
-        mesh.texcoord1 = mesh.color = SURFACE_ABSENT;
+        mesh.texcoord1 = 12;
+        mesh.color = 14;
         InstanceRow instance{};
         for (int i = 0; i < 3; ++i) {
             float* row = &instance.view_from_object[i].x;
@@ -81,7 +99,7 @@ class QuadScene {
         end.first_triangle = 2;
         put(instances_, std::vector{instance, end}, buffers.instances);
         put(blocks_, std::vector<uint>{0, 0}, buffers.instance_blocks);
-        put(materials_, std::vector{material()}, buffers.materials);
+        put(materials_, std::vector{material}, buffers.materials);
         put(textures_, std::vector{texture}, buffers.textures);
         buffers.texels = texels;
     }
@@ -89,19 +107,6 @@ class QuadScene {
     SurfaceBuffers buffers;
 
  private:
-    static SurfaceMaterial material() {
-        SurfaceMaterial out{};
-        out.row.base_color = {1.0f, 0.5f, 1.0f, 1.0f};
-        out.row.factors = {0.25f, 0.75f, 1.0f, 1.0f};
-        for (uint& texture : out.textures) texture = SURFACE_ABSENT;
-        out.textures[USE_BASE_COLOR] = out.textures[USE_NORMAL] = 0;
-        out.lookup_use = USE_BASE_COLOR;
-        out.flags = MATERIAL_SHARES_LOOKUP << USE_BASE_COLOR |
-                    MATERIAL_SHARES_LOOKUP << USE_NORMAL | MATERIAL_MASKED;
-        out.row.emissive_cutoff.w = 0.5f;  // texels' alpha is 1
-        return out;
-    }
-
     template <typename T>
     void put(GrowingArray<T>& array, const std::vector<T>& values, DeviceArray<T>& out) {
         out = array.reserve(values.size());
@@ -136,40 +141,57 @@ std::vector<uint> quad_ids(const View& view) {
     return ids;
 }
 
-// The planes of a layout, as bytes; `decoded` gets them as shading sees them.
-std::vector<std::byte> resolved(const Gpu& gpu, uint layout, int anisotropy,
-                                std::vector<float>* decoded = nullptr) {
-    const View view = small_view();
+// A G-buffer of the quad on the device.
+struct Resolved {
     KernelFeatures features;
-    features.gbuffer = layout;
-    features.material = features.metallic = features.occlusion = features.specular = true;
+    GBuffer gbuffer;
+};
+
+Resolved resolve_quad(const Gpu& gpu, uint layout, const SurfaceFeatures& surfaces,
+                      const SurfaceMaterial& material = quad_material()) {
+    const View view = small_view();
+    Resolved out;
+    out.features.gbuffer = layout;
+    out.features.material = out.features.metallic = true;
+    out.features.occlusion = out.features.specular = true;
     GBufferNeeds needs;
-    static_cast<SceneFeatures&>(needs) = features;
+    static_cast<SceneFeatures&>(needs) = out.features;
     needs.layout = layout;
-    const SurfaceFeatures surfaces = quad_features(anisotropy);
-    const QuadScene scene(gpu);
+    const QuadScene scene(gpu, 1.0f, material);
     const std::vector<uint> ids = quad_ids(view);
     GrowingArray<uint> device_ids(gpu, "test");
     upload<uint>(gpu, device_ids.reserve(ids.size()), ids);
-    const Tuning tuning = default_tuning(gpu.info);
-    ResolveSurfaces resolve(gpu, tuning, features, surfaces);
+    ResolveSurfaces resolve(gpu, default_tuning(gpu.info), out.features, surfaces);
     StageTimer timer;
     const GBufferLayout planes = make_gbuffer_layout(needs, view.stride, view.height);
-    const GBuffer out = resolve.enqueue(device_ids.get(), scene.buffers, planes, view, timer);
-    if (decoded) {
-        DecodeGBuffer decode(gpu, tuning, features);
-        *decoded =
-            download<float>(gpu, decode.enqueue(out, timer), decode.plane_count() * ids.size());
-    }
+    out.gbuffer = resolve.enqueue(device_ids.get(), scene.buffers, planes, view, timer);
+    gpu.queue.finish();
+    return out;
+}
+
+// The planes as shading sees them.
+std::vector<float> decoded(const Gpu& gpu, const Resolved& quad) {
+    DecodeGBuffer decode(gpu, default_tuning(gpu.info), quad.features);
+    StageTimer timer;
+    const View& view = quad.gbuffer.view;
+    return download<float>(gpu, decode.enqueue(quad.gbuffer, timer),
+                           decode.plane_count() * view.stride * view.height);
+}
+
+// The planes of a layout, as bytes.
+std::vector<std::byte> resolved(const Gpu& gpu, uint layout, int anisotropy) {
+    const GBuffer out = resolve_quad(gpu, layout, quad_features(anisotropy)).gbuffer;
+    const std::size_t pixels = std::size_t{out.view.stride} * out.view.height;
     std::vector<std::byte> bytes = download(gpu, out.bytes);
     // The gaps between planes are undefined.
     std::vector<std::byte> kept;
     for (uint plane = 0; plane < PLANE_COUNT; ++plane) {
-        if (planes.offset_bytes[plane] == PLANE_ABSENT) continue;
-        const auto first = bytes.begin() + static_cast<std::ptrdiff_t>(planes.offset_bytes[plane]);
+        if (out.layout.offset_bytes[plane] == PLANE_ABSENT) continue;
+        const auto first =
+            bytes.begin() + static_cast<std::ptrdiff_t>(out.layout.offset_bytes[plane]);
         kept.insert(
             kept.end(), first,
-            first + static_cast<std::ptrdiff_t>(plane_element_bytes(layout, plane) * ids.size()));
+            first + static_cast<std::ptrdiff_t>(plane_element_bytes(layout, plane) * pixels));
     }
     return kept;
 }
@@ -186,8 +208,8 @@ TEST(ResolveSurfaces, LaneWidthsGiveTheSameBits) {
 }
 
 TEST(ResolveSurfaces, InterpolatesAndLeavesTheBackground) {
-    std::vector<float> planes;
-    resolved(test_gpu(), GBUFFER_FULL, 1, &planes);
+    const std::vector<float> planes =
+        decoded(test_gpu(), resolve_quad(test_gpu(), GBUFFER_FULL, quad_features(1)));
     const View view = small_view();
     const std::size_t plane = std::size_t{view.stride} * view.height;
     const auto at = [&](std::size_t index, uint x, uint y) {
@@ -208,8 +230,58 @@ TEST(ResolveSurfaces, InterpolatesAndLeavesTheBackground) {
     }
 }
 
+// A plane of the quad's surfaces, or three, without what lies beside the picture.
+std::vector<float> plane_of(const std::vector<float>& planes, std::size_t first, int count) {
+    const View view = small_view();
+    std::vector<float> out;
+    for (std::size_t y = first * kHeight; y < (first + static_cast<std::size_t>(count)) * kHeight;
+         ++y) {
+        const auto row = planes.begin() + static_cast<std::ptrdiff_t>(y * view.stride);
+        out.insert(out.end(), row, row + kWidth);
+    }
+    return out;
+}
+
+TEST(ResolveSurfaces, EachTextureIsReadAtItsOwnTexcoords) {
+    const Gpu gpu = test_gpu();
+    SurfaceFeatures features = quad_features(1);
+    const auto planes_with = [&](uint flags) {
+        SurfaceMaterial material = quad_material();
+        material.flags = flags;
+        return decoded(gpu, resolve_quad(gpu, GBUFFER_FULL, features, material));
+    };
+    const std::vector<float> first = planes_with(0u);
+    features.texcoord1 = true;
+    const auto same = [&](const std::vector<float>& planes, std::size_t plane) {
+        return plane_of(planes, plane, 3) == plane_of(first, plane, 3);
+    };
+    EXPECT_EQ(planes_with(0u), first);
+    const std::vector<float> turned_normal = planes_with(1u << USE_NORMAL);
+    EXPECT_TRUE(same(turned_normal, SURFACE_ALBEDO));
+    EXPECT_FALSE(same(turned_normal, SURFACE_NORMAL));
+    const std::vector<float> turned_colour = planes_with(1u << USE_BASE_COLOR);
+    EXPECT_FALSE(same(turned_colour, SURFACE_ALBEDO));
+    EXPECT_TRUE(same(turned_colour, SURFACE_NORMAL));
+}
+
+// The texture's alpha is 1 everywhere.
+TEST(ResolveSurfaces, TheWeightOfSpecularIsItsTexturesAlpha) {
+    const Gpu gpu = test_gpu();
+    SurfaceFeatures features = quad_features(1);
+    features.texture_uses |= 1u << USE_SPECULAR;
+    SurfaceMaterial material = quad_material();
+    material.textures[USE_SPECULAR] = 0;
+    material.row.specular.w = 0.75f;
+    const std::vector<float> f90 = plane_of(
+        decoded(gpu, resolve_quad(gpu, GBUFFER_FULL, features, material)), SURFACE_SPECULAR_F90, 1);
+    for (std::size_t i = 0; i < f90.size(); ++i) {
+        ASSERT_EQ(f90[i], i % kWidth < 3 ? 0.0f : 0.75f) << i;
+    }
+}
+
 // The ids of the quad's triangles, drawn in OpenCL.
-std::vector<uint> drawn_ids(const Gpu& gpu, int group) {
+std::vector<uint> drawn_ids(const Gpu& gpu, int group, bool vertex_alpha = false,
+                            const SurfaceMaterial& material = quad_material()) {
     const View view = small_view();
     Tuning tuning = default_tuning(gpu.info);
     tuning.raster_group = group;
@@ -218,7 +290,8 @@ std::vector<uint> drawn_ids(const Gpu& gpu, int group) {
     SurfaceFeatures features;
     features.texture_uses = 1u << USE_BASE_COLOR;
     features.texcoord0 = features.masks = true;
-    const QuadScene scene(gpu);
+    features.vertex_color = vertex_alpha;
+    const QuadScene scene(gpu, 1.0f, material);
     BinTriangles bin(gpu, tuning);
     RasterTriangles raster(gpu, tuning, features);
     StageTimer timer;
@@ -229,6 +302,20 @@ std::vector<uint> drawn_ids(const Gpu& gpu, int group) {
         std::fill_n(ids.begin() + y * view.stride + view.width, view.stride - view.width, 0u);
     }
     return ids;
+}
+
+// The colours' alpha falls by a tenth until x = -0.54 m, which is at pixel 7.8.
+TEST(ResolveSurfaces, MasksUseTheVerticesAlpha) {
+    SurfaceMaterial material = quad_material();
+    material.row.emissive_cutoff.w = 0.9f;
+    for (const int group : {1, 32}) {
+        const std::vector<uint> ids = drawn_ids(test_gpu(1), group, true, material);
+        for (uint y = 0; y < kHeight; ++y) {
+            for (uint x = 3; x < kWidth; ++x) {
+                EXPECT_EQ(ids[y * 32 + x] != 0, x < 8) << x << ' ' << y << ", group " << group;
+            }
+        }
+    }
 }
 
 // Number of texels of every pixel of the quad: all are equal.

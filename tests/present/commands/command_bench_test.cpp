@@ -27,6 +27,23 @@ std::vector<std::string> small_bench(std::vector<std::string> more) {
     return words;
 }
 
+// The scene's file is missing, which only loading it would find.
+TEST(Bench, RefusesEachImpossiblePointBeforeAnythingIsLoaded) {
+    const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+        {{"--renderer", "deferred,forward", "--shadows", "exact"}, "shadows: the forward"},
+        {{"--renderer", "deferred,deferred-all", "--tails", "tree"}, "tails tree: only"},
+        {{"--renderer", "forward", "--show", "false-positives"}, "--show false-positives"},
+        {{"--renderer", "forward", "--shadows", "exact", "--tune"}, "shadows: the forward"},
+        {{"--renderer", "forward", "--shadows", "exact", "--job", "png"}, "shadows: the forward"}};
+    for (const auto& [words, message] : cases) {
+        std::vector<std::string> all = {"bench", "no_such_scene.gltf", "--lights", "9"};
+        all.insert(all.end(), words.begin(), words.end());
+        const ChildResult result = run_kilolux(all);
+        EXPECT_EQ(result.code, 2) << message;
+        EXPECT_TRUE(contains(result.err, message)) << result.err;
+    }
+}
+
 TEST(Bench, QuickMeasuresLightsAndGrids) {
     const TemporaryFolder folder;
     const ChildResult result = run_kilolux(
@@ -247,6 +264,8 @@ TEST(BenchResults, TablesAreThoseOfTheirCsv) {
         EXPECT_EQ(text_of_file(entry.path()),
                   text_of_file(folder / entry.path().filename().string()))
             << entry.path() << ": run host/measure/results/make_tables";
+        EXPECT_TRUE(contains(text_of_file(entry.path()), ", shading "))
+            << entry.path() << " says how surfaces reflect light";
         ++tables;
     }
     EXPECT_EQ(tables, names_in(folder).size());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures that do not fit into the memory as a whole are made and written strip by strip.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/mount.h>
@@ -98,6 +99,20 @@ TEST_F(RenderStrips, OfSeveralDevicesAreWrittenInOrder) {
         EXPECT_TRUE(contains(said, "\ndevice 1 (")) << said;
         EXPECT_FALSE(contains(said, ": 260 rows in ")) << "one made all\n" << said;
     }
+}
+
+// The whole picture takes 1.1 GB. Kernels that are not built yet take their compiler.
+TEST_F(RenderStrips, StayWithinTheMemory) {
+#if defined(__SANITIZE_ADDRESS__)
+    GTEST_SKIP() << "the sanitizer takes memory of its own";
+#endif
+    constexpr long kLimit = 350, kCompiler = 150;  // [MiB]
+    std::vector<std::string> words =
+        words_of(strips_ / "a.exr", {"--device", "0", "--max-memory", fmt::format("{}M", kLimit)});
+    std::ranges::replace(words, std::string("4096,260"), std::string("4096,3072"));
+    const ChildResult result = run_child(words);
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_LE(result.peak_kib, (kLimit + kCompiler) * 1024);
 }
 
 TEST_F(RenderStrips, LeaveNothingWhenInterrupted) {

@@ -289,6 +289,61 @@ void write_moving_scene(const fs::path& file) {
     write_text(file, text);
 }
 
+Frame sky_of(float light) {
+    Frame frame;
+    frame.width = 2;
+    frame.height = 1;
+    frame.radiance.assign(6, light);
+    return frame;
+}
+
+TEST(Render, AMissingEnvironmentIsFoundBeforeTheSceneIsLoaded) {
+    for (const char* command : {"render", "bench", "report"}) {
+        const ChildResult result = run_kilolux({command, "no_such_scene.gltf", "--environment",
+                                                "no_file.hdr", "-o", "/no_such_folder/a.png"});
+        EXPECT_EQ(result.code, 1);
+        EXPECT_EQ(result.err, "kilolux: no_file.hdr: no such environment file\n") << command;
+    }
+}
+
+// --skip-existing refuses a file by name after an input file of the same name has changed.
+TEST(Render, FilesKnowTheContentOfTheirInputs) {
+    const auto key_at = [](const std::string& z) {
+        return R"([{"time":0,"position":[0,1,4],"focal_point":[0,1,)" + z + "]}]";
+    };
+    const TemporaryFolder folder;
+    write_moving_scene(folder / "m.gltf");
+    write_image(folder / "sky.hdr", sky_of(0.5f));
+    write_text(folder / "keys.json", key_at("0"));
+    for (const char* name : {"a.png", "a.y4m", "a.exr"}) {
+        const auto made = [&] {
+            return run_kilolux({"render", (folder / "m.gltf").string(), "--resolution", "48,32",
+                                "--environment", (folder / "sky.hdr").string(), "--camera-keys",
+                                (folder / "keys.json").string(), "--skip-existing", "-o",
+                                (folder / name).string()});
+        };
+        const auto is_refused = [&] {
+            const ChildResult result = made();
+            EXPECT_TRUE(contains(result.err, std::string(name) + ": holds another")) << result.err;
+            return result.code == 1;
+        };
+        ASSERT_EQ(made().code, 0) << made().err;
+        const std::string keys = text_of_file(folder / "keys.json");
+        write_text(folder / "keys.json", key_at("-1"));
+        EXPECT_TRUE(is_refused()) << name << " keys";
+        write_text(folder / "keys.json", keys);
+        EXPECT_TRUE(contains(made().err, "nothing to render")) << name;
+        write_image(folder / "sky.hdr", sky_of(0.75f));
+        EXPECT_TRUE(is_refused()) << name << " environment";
+        write_image(folder / "sky.hdr", sky_of(0.5f));
+        const std::string scene = text_of_file(folder / "m.gltf");
+        write_text(folder / "m.gltf", scene + " ");
+        EXPECT_TRUE(is_refused()) << name << " scene";
+        write_text(folder / "m.gltf", scene);
+        EXPECT_TRUE(contains(made().err, "nothing to render")) << name;
+    }
+}
+
 TEST(Render, FourShardsAreOneSequenceOfAnAnimatedScene) {
     const TemporaryFolder folder;
     write_moving_scene(folder / "m.gltf");

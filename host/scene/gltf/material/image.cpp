@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <numeric>
 
 #include "host/base/error.h"
 #include "host/images/images.h"
@@ -89,19 +90,13 @@ void check_size(const GltfDocument& document, const std::string& name, const Ima
     document.budget->charge_memory(bytes, document.base.file + ": " + name);
 }
 
-// Pixels of `channels` channels as RGBA; one or two channels are grey.
-std::vector<std::uint8_t> to_rgba(const std::vector<std::uint8_t>& pixels, std::size_t channels) {
-    const std::size_t count = pixels.size() / channels;
-    std::vector<std::uint8_t> rgba(4 * count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::uint8_t* in = &pixels[channels * i];
-        std::uint8_t* out = &rgba[4 * i];
-        out[0] = in[0];
-        out[1] = channels < 3 ? in[0] : in[1];
-        out[2] = channels < 3 ? in[0] : in[2];
-        out[3] = channels == 2 ? in[1] : channels >= 4 ? in[3] : std::uint8_t{255};
+// Makes RGBA of pixels that hold `channels` of their four channels; one or two channels are grey.
+void fill_rgba(std::vector<std::uint8_t>& rgba, std::size_t channels) {
+    for (std::size_t i = 0; channels < 4 && i < rgba.size(); i += 4) {
+        std::uint8_t* pixel = &rgba[i];
+        pixel[3] = channels == 2 ? pixel[1] : std::uint8_t{255};
+        if (channels < 3) pixel[1] = pixel[2] = pixel[0];
     }
-    return rgba;
 }
 
 // glTF's colours are not multiplied by alpha. Some readers of OpenImageIO multiply whatever they
@@ -136,12 +131,12 @@ Image decode(const GltfDocument& document, int index) {
     const ImageLayout& layout = reader->layout();
     check_size(document, name, layout, encoded.bytes.size());
     const std::size_t channels = std::min<std::size_t>(layout.channels.size(), 4);
-    std::vector<std::uint8_t> pixels(channels * layout.pixels());
-    of_codec([&] {
-        reader->read(0, static_cast<int>(channels), SampleType::uint8, pixels.data(), channels);
-    });
     Image out{source.name, layout.width, layout.height, {}};
-    out.rgba = channels == 4 ? std::move(pixels) : to_rgba(pixels, channels);
+    out.rgba.resize(4 * layout.pixels());
+    of_codec([&] {
+        reader->read(0, static_cast<int>(channels), SampleType::uint8, out.rgba.data(), 4);
+    });
+    fill_rgba(out.rgba, channels);
     if (layout.associated_alpha) undo_associated_alpha(out.rgba);
     return out;
 }
@@ -159,10 +154,31 @@ std::vector<Image> decode_images(const GltfDocument& document, const std::vector
         progress(done += more, images.size());
     };
     if (!images.empty()) tell(0);
-    parallel_each(images.size(), [&](std::size_t i) {
-        out[i] = decode(document, images[i]);
-        tell(1);
-    });
+    std::vector<std::size_t> left(images.size());
+    std::iota(left.begin(), left.end(), std::size_t{0});
+    while (!left.empty()) {
+        // Several may lack only the memory that others of them borrow: these wait for the next
+        // round. Where none had enough, one is alone with what there is.
+        std::vector<char> waits(left.size(), 0);
+        parallel_each(left.size(), [&](std::size_t i) {
+            try {
+                out[left[i]] = decode(document, images[left[i]]);
+                tell(1);
+            } catch (const MemoryError&) {
+                waits[i] = 1;
+            }
+        });
+        std::vector<std::size_t> next;
+        for (std::size_t i = 0; i < left.size(); ++i) {
+            if (waits[i] != 0) next.push_back(left[i]);
+        }
+        if (next.size() == left.size()) {
+            out[next[0]] = decode(document, images[next[0]]);
+            tell(1);
+            next.erase(next.begin());
+        }
+        left = std::move(next);
+    }
     return out;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/gltf/used_parts.h"
+#include "host/scene/gltf/json/used_parts.h"
 
 #include "host/scene/gltf/document.h"
 

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cross products of exact differences, against long double.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "host/certify/synthetic/probe.h"
+#include "host/gpu/buffer.h"
+#include "tests/support/test_gpu.h"
+
+namespace kilolux {
+namespace {
+
+constexpr std::string_view kHeaders[] = {"kernels/shadows/shadow_triangle.h"};
+constexpr std::string_view kProbe = R"(
+kernel void crosses(global const float* in, global float* out) {
+    size_t i = get_global_id(0);
+    FV3 v[3];
+    for (uint k = 0; k < 3; ++k) v[k] = splat3(vload3(3 * i + k, in));
+    FV3 c = twofold_cross(twofold_difference(v[1], v[0]), twofold_difference(v[2], v[0]));
+    vstore3((float3)(c.x, c.y, c.z), i, out);
+}
+)";
+
+// Triangles with all ratios of height to length down to a float's last place.
+std::vector<float> thin_triangles(std::size_t count) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> place(-1.0, 1.0), power(-24.0, 0.0);
+    std::vector<float> out;
+    for (std::size_t i = 0; i < count; ++i) {
+        double origin[3], along[3];
+        for (int axis = 0; axis < 3; ++axis) {
+            origin[axis] = place(random);
+            along[axis] = place(random);
+        }
+        const double height = std::exp2(power(random)), share = place(random);
+        for (const double* at : {origin, along}) {
+            for (int axis = 0; axis < 3; ++axis) {
+                const double moved = at == along ? origin[axis] + along[axis] : at[axis];
+                out.push_back(static_cast<float>(moved));
+            }
+        }
+        for (int axis = 0; axis < 3; ++axis) {
+            out.push_back(
+                static_cast<float>(origin[axis] + share * along[axis] + height * place(random)));
+        }
+    }
+    return out;
+}
+
+TEST(Twofold, CrossProductsAreAsAccurateAsTheySay) {
+    constexpr std::size_t kCount = 20000;
+    Gpu gpu = test_gpu(1);
+    const std::vector<float> in = thin_triangles(kCount);
+    const cl::Program program = build_probe(gpu, kHeaders, kProbe);
+    const cl::Buffer out = new_buffer(gpu, std::vector<float>(3 * kCount));
+    cl::KernelFunctor<cl::Buffer, cl::Buffer>(program, "crosses")(
+        cl::EnqueueArgs(gpu.queue, cl::NDRange(kCount)), new_buffer(gpu, in), out);
+    const auto found = download<float>(gpu, out, 3 * kCount);
+    for (std::size_t i = 0; i < kCount; ++i) {
+        const float* v = in.data() + 9 * i;
+        long double a[3], b[3];
+        for (int axis = 0; axis < 3; ++axis) {
+            a[axis] = static_cast<long double>(v[3 + axis]) - v[axis];
+            b[axis] = static_cast<long double>(v[6 + axis]) - v[axis];
+        }
+        long double off = 0.0L, length = 0.0L, products = 0.0L;
+        for (int axis = 0; axis < 3; ++axis) {
+            const int j = (axis + 1) % 3, k = (axis + 2) % 3;
+            const long double exact = a[j] * b[k] - a[k] * b[j];
+            off = std::hypot(off, exact - found[3 * i + static_cast<std::size_t>(axis)]);
+            length = std::hypot(length, exact);
+            products += std::abs(a[j] * b[k]) + std::abs(a[k] * b[j]);
+        }
+        ASSERT_LE(off, std::exp2(-22.0L) * length + std::exp2(-44.0L) * products) << i;
+    }
+}
+
+}  // namespace
+}  // namespace kilolux
