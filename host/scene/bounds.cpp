@@ -13,8 +13,8 @@
 namespace kilolux {
 namespace {
 
-constexpr std::size_t kVerticesOfTask = 4096;
-constexpr float kRounding = 1e-6f;   // of a coordinate: points that near each other are one
+constexpr std::size_t kVerticesAtOnce = 4096;
+constexpr float kSamePoint = 1e-6f;  // of a coordinate: points that near each other are one
 constexpr double kParallel = 1e-12;  // relative area of axes that rounding leaves of a line
 constexpr double kSpeck = 1e-5;      // of the largest instance's size: no picture shows it
 constexpr int kRounds = 8;           // until all boxes are made exact
@@ -47,7 +47,7 @@ bool has_area(const Mesh& mesh, std::size_t triangle) {
     const glm::vec3 u = mesh.positions[corner[1]] - a, v = mesh.positions[corner[2]] - a;
     const glm::vec3 extent = glm::max(glm::abs(u), glm::abs(v)), place = glm::abs(a);
     const float size = std::max({extent.x, extent.y, extent.z});
-    if (size <= kRounding * std::max({place.x, place.y, place.z})) return false;
+    if (size <= kSamePoint * std::max({place.x, place.y, place.z})) return false;
     return glm::cross(u / size, v / size) != glm::vec3(0.0f);
 }
 
@@ -74,7 +74,7 @@ Box bounds(const Mesh& mesh, const glm::dmat4& world_from_object, const Marks* m
         }
         return box;
     };
-    return tbb::parallel_reduce(Range(0, mesh.positions.size(), kVerticesOfTask), Box{}, add,
+    return tbb::parallel_reduce(Range(0, mesh.positions.size(), kVerticesAtOnce), Box{}, add,
                                 joined_boxes);
 }
 

@@ -16,23 +16,23 @@ namespace {
 using Hit = LookAround::Hit;
 using Side = LookAround::Side;
 
-constexpr double kEnclosedShare = 0.5;     // of the rays from within: hit front faces
-constexpr double kClosedShare = 0.5;       // of the rays from the middle: hit back faces
-constexpr double kOpenShare = 1.0 / 3.0;   // of the view of front faces: outside
-constexpr double kBacksShare = 0.25;       // of the view from outside: backs of walls
-constexpr double kRoomShare = 0.25;        // of the box: seen from within
-constexpr double kRoomOpenShare = 0.4;     // of the view of reached faces: outside
-constexpr double kSealedShare = 0.995;     // of the rays from within: hit front faces
-constexpr double kSealedRoomShare = 0.1;   // of the box: gaps between bricks are narrower
-constexpr double kSealedOpenShare = 0.6;   // of the view of reached faces: outside
-constexpr std::size_t kInnerRays = 1024;   // from a point
-constexpr std::size_t kLineWays = 64;      // directions of lines through the scene
-constexpr std::size_t kReachLineWays = 8;  // of those from whose surfaces walks start
-constexpr int kLines = 10;                 // of each direction, along the edge of a square
-constexpr int kMostHits = 100;             // of a line
-constexpr int kSteps = 16;                 // of a walk
-constexpr double kLift = 1e-5;             // of the diagonal: a walk's start off its surface
-constexpr double kFloor = 0.5;             // cosine to +Y of ground, whose backs say nothing
+constexpr double kEnclosedShare = 0.5;       // of the rays from within: hit front faces
+constexpr double kClosedShare = 0.5;         // of the rays from the middle: hit back faces
+constexpr double kOutsideShare = 1.0 / 3.0;  // of the view of front faces: outside
+constexpr double kBacksShare = 0.25;         // of the view from outside: backs of walls
+constexpr double kRoomShare = 0.25;          // of the box: seen from within
+constexpr double kRoomOpenShare = 0.4;       // of the view of reached faces: outside
+constexpr double kSealedShare = 0.995;       // of the rays from within: hit front faces
+constexpr double kSealedRoomShare = 0.1;     // of the box: gaps between bricks are narrower
+constexpr double kSealedOpenShare = 0.6;     // of the view of reached faces: outside
+constexpr std::size_t kInnerRays = 1024;     // from a point
+constexpr std::size_t kLineWays = 64;        // directions of lines through the scene
+constexpr std::size_t kReachLineWays = 8;    // of those from whose surfaces walks start
+constexpr int kLines = 10;                   // of each direction, along the edge of a square
+constexpr int kMostHits = 100;               // of a line
+constexpr int kWalkSteps = 16;               // of a walk
+constexpr double kLift = 1e-5;               // of the diagonal: a walk's start off its surface
+constexpr double kFloor = 0.5;               // cosine to +Y of ground, whose backs say nothing
 
 // Points of a Fibonacci lattice on the unit sphere.
 std::vector<glm::dvec3> directions(std::size_t count) {
@@ -129,7 +129,7 @@ class Walks {
         : around_(around), eyes_(std::move(eyes)), lift_(kLift * diagonal) {}
 
     bool reach_an_eye(glm::dvec3 place, glm::dvec3 normal) {
-        for (int step = 0; step < kSteps; ++step) {
+        for (int step = 0; step < kWalkSteps; ++step) {
             place += lift_ * normal;
             if (is_seen(place)) return true;
             const glm::dvec3 way = glm::normalize(normal + 0.999 * ways_[random_() % ways_.size()]);
@@ -217,7 +217,7 @@ Enclosure enclosure_of(const Scene& scene, const Box& box) {
     if (eyes.empty()) {
         out.reason =
             fmt::format("surfaces face {:.0f} % of what a point within sees", 100.0 * out.within);
-    } else if (out.open >= kOpenShare) {
+    } else if (out.open >= kOutsideShare) {
         out.reason = fmt::format("{:.0f} % of what its surfaces face is outside", 100.0 * out.open);
     } else {
         judge_room(around, box, std::move(eyes), out);
