@@ -2,10 +2,11 @@
 #include "raster/forward_pass.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <initializer_list>
+#include <utility>
 
 #include "raster/gl_debug.h"
-#include "raster/parted_draw.h"
 #include "raster/raster_state.h"
 
 namespace kilolux {
@@ -72,9 +73,21 @@ void ForwardPass::prepare(int width, int height) {
     targets_ = std::make_unique<GBufferTargets>(radiance_plan(), width, height);
 }
 
+// A pass takes about as long as the one before it of the same work.
+void ForwardPass::expect(const ForwardLights& lights) {
+    constexpr double kQuick = 1e7;  // lights of pixels, which llvmpipe shades in 0.3 s
+    const Work work{lights.lights.size() + lights.directional.size(), lights.light_lists.size(),
+                    targets_->width(), targets_->height()};
+    const bool is_known = std::exchange(is_whole_, false) && work == work_;
+    cost_ = {.first_pixels = kQuick / static_cast<double>(std::max<std::size_t>(work.lights, 1))};
+    if (is_known) cost_.expected_s = 1e-3 * timer_.last_ms();
+    work_ = work;
+}
+
 void ForwardPass::draw(const Camera& camera, int width, int height, const ForwardLights& lights,
                        std::span<const float> background) {
     prepare(width, height);
+    expect(lights);
     light_buffers_.upload(lights, view_of(camera, width, height));
     const CameraRow row = camera_row(camera, view_of(camera, width, height), width, height);
     {
@@ -86,6 +99,7 @@ void ForwardPass::draw(const Camera& camera, int width, int height, const Forwar
         draw_opaque(camera, row);
         draw_transparent(camera, row);
     }
+    is_whole_ = true;
     check_gl_errors("forward pass");
 }
 
@@ -101,7 +115,7 @@ void ForwardPass::draw_opaque(const Camera& camera, const CameraRow& row) {
         glDepthMask(GL_FALSE);
         glDepthFunc(GL_EQUAL);
     }
-    draw_in_parts(width, height, [&] { opaque_->draw(draws, row); });
+    draw_in_parts(width, height, cost_, [&] { opaque_->draw(draws, row); });
 }
 
 void ForwardPass::draw_transparent(const Camera& camera, const CameraRow& row) {
@@ -115,7 +129,7 @@ void ForwardPass::draw_transparent(const Camera& camera, const CameraRow& row) {
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    draw_in_parts(width, height, [&] { blended_.draw(draws, row); });
+    draw_in_parts(width, height, cost_, [&] { blended_.draw(draws, row); });
 }
 
 void ForwardPass::draw_blended(const Camera& camera, const View& view,
@@ -124,6 +138,7 @@ void ForwardPass::draw_blended(const Camera& camera, const View& view,
     const int width = gbuffer.width();
     const int height = gbuffer.height();
     prepare(width, height);
+    expect(lights);
     light_buffers_.upload(lights, view);
     {
         const GlTimer::Scope timed(timer_);
@@ -134,6 +149,7 @@ void ForwardPass::draw_blended(const Camera& camera, const View& view,
         light_buffers_.bind();
         draw_transparent(camera, camera_row(camera, view, width, height));
     }
+    is_whole_ = true;
     check_gl_errors("blended surfaces");
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <span>
@@ -10,6 +11,7 @@
 #include "raster/forward_lights.h"
 #include "raster/gbuffer_targets.h"
 #include "raster/gl_timer.h"
+#include "raster/parted_draw.h"
 #include "raster/scene_programs.h"
 
 namespace kilolux {
@@ -50,7 +52,15 @@ class ForwardPass {
     double last_ms() const { return timer_.last_ms(); }
 
  private:
+    // What the seconds of a pass depend on.
+    struct Work {
+        std::size_t lights = 0, listed = 0;
+        int width = 0, height = 0;
+        bool operator==(const Work&) const = default;
+    };
+
     void prepare(int width, int height);
+    void expect(const ForwardLights& lights);
     void draw_opaque(const Camera& camera, const CameraRow& row);
     void draw_transparent(const Camera& camera, const CameraRow& row);
 
@@ -60,6 +70,9 @@ class ForwardPass {
     ForwardLightBuffers light_buffers_;
     std::unique_ptr<GBufferTargets> targets_;
     GlTimer timer_;
+    Work work_;              // of the pass before
+    bool is_whole_ = false;  // that pass was drawn to its end
+    PassCost cost_;          // of this pass
 };
 
 }  // namespace kilolux

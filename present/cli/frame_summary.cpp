@@ -6,9 +6,11 @@
 #include <map>
 
 #include "host/base/version.h"
+#include "host/measure/bench/sweep.h"
 #include "host/measure/roofline/stage_report.h"
 #include "host/measure/roofline/stages.h"
 #include "host/picture/listed_lights.h"
+#include "present/cli/names.h"
 #include "present/cli/option_values.h"
 #include "present/video/video_file.h"
 
@@ -99,14 +101,26 @@ ImageNotes picture_notes(const SharedOptions& options, const DeviceInfo& device,
     return notes;
 }
 
-std::string frame_summary(const Scene& scene, const DeviceInfo& device, const FrameRecord& last,
-                          const JobSummary& job) {
+std::string picture_header(const Renderer& renderer) {
+    const DeviceInfo& device = renderer.device();
+    const RenderSettings& s = renderer.settings();
+    const Scene& scene = renderer.scene();
     std::string out =
-        fmt::format("device  {} ({}), {} lanes\nscene   {}, {} triangles\n", device.name,
-                    device.version, device.lane_width, scene.name, triangle_count(scene));
-    out += light_line(last.stats) + sample_line(last.stats.samples) + cluster_line(last.stats) +
-           (job.by_stage ? stage_lines(last.stats) : group_lines(last.stats)) +
-           time_line(kFrameStage, last.stats.frame_ms) + "\n";
+        fmt::format("device  {} ({}), {} lanes\nscene   {}, {} triangles\npicture {}x{}, {}",
+                    device.name, device.version, device.lane_width, scene.name,
+                    triangle_count(scene), s.width, s.height, name_of(s.renderer));
+    if (has_clusters(s.renderer)) {
+        out += fmt::format(", grid {}x{}x{}", s.grid.tiles_x, s.grid.tiles_y,
+                           s.grid.slices_per_octave);
+    }
+    return out + (s.samples > 1 ? fmt::format(", {} samples", s.samples) : "");
+}
+
+std::string frame_summary(const FrameRecord& last, const JobSummary& job) {
+    std::string out = light_line(last.stats) + sample_line(last.stats.samples) +
+                      cluster_line(last.stats) +
+                      (job.by_stage ? stage_lines(last.stats) : group_lines(last.stats)) +
+                      time_line(kFrameStage, last.stats.frame_ms) + "\n";
     if (job.build_seconds >= kLongBuildSeconds) {
         out += fmt::format("kernels built in {:.1f} s; drivers keep them for the next run\n",
                            job.build_seconds);

@@ -25,9 +25,11 @@ struct JobSummary {
     bool by_stage = false;       // times by stages, not by groups of them
 };
 
-/// Device, scene, lights, times of the last frame, how long kernels took to build where that was
-/// long, and the files; several lines.
-std::string frame_summary(const Scene& scene, const DeviceInfo& device, const FrameRecord& last,
-                          const JobSummary& job);
+/// What is rendered, before it is: device, scene, and the picture with its renderer and grid.
+std::string picture_header(const Renderer& renderer);
+
+/// Lights, times of the last frame, how long kernels took to build where that was long, and the
+/// files; several lines.
+std::string frame_summary(const FrameRecord& last, const JobSummary& job);
 
 }  // namespace kilolux

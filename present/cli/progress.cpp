@@ -36,6 +36,7 @@ std::string progress_line(const std::string& label, std::size_t done, std::size_
     if (done > 0 && done < total) {
         tail += fmt::format(", {} left", duration_text(elapsed_s * (1.0 / share - 1.0)));
     }
+    if (done == 0 && elapsed_s >= 1.0) tail += fmt::format(", {} so far", duration_text(elapsed_s));
     const int room = std::min(width - static_cast<int>(head.size() + tail.size()) - 3, 40);
     // A bar of fewer than eight columns shows too little.
     if (room < 8) return (head + tail).substr(0, static_cast<std::size_t>(std::max(width, 0)));
@@ -51,13 +52,27 @@ Progress::Progress(std::string label, std::size_t total, bool shown, double line
       line_s_(line_s),
       terminal_(isatty(STDERR_FILENO) == 1) {
     draw();
+    if (!shown_ || terminal_) return;
+    lines_ = std::jthread([this](const std::stop_token& end) { draw_lines(end); });
 }
 
 Progress::~Progress() { erase(); }
 
 void Progress::advance() {
+    const std::scoped_lock lock(mutex_);
     ++done_;
     draw();
+}
+
+void Progress::draw_lines(const std::stop_token& end) {
+    constexpr double kLeast = 0.01;
+    std::unique_lock lock(mutex_);
+    while (!end.stop_requested()) {
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+        const std::chrono::duration<double> left(std::max(next_line_s_ - elapsed.count(), kLeast));
+        ended_.wait_for(lock, end, left, [] { return false; });
+        if (!end.stop_requested()) draw();
+    }
 }
 
 void Progress::erase() {

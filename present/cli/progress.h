@@ -2,8 +2,12 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <cstddef>
+#include <mutex>
+#include <stop_token>
 #include <string>
+#include <thread>
 
 namespace kilolux {
 
@@ -11,12 +15,12 @@ namespace kilolux {
 std::string duration_text(double seconds);
 
 /// One line of at most `width` columns: label, count, bar, per cent and the time left by the pace
-/// so far.
+/// so far, or the time so far where nothing is done.
 std::string progress_line(const std::string& label, std::size_t done, std::size_t total,
                           double elapsed_s, int width);
 
-/// A progress bar on stderr while stderr is a terminal, erased when it ends; otherwise a line
-/// at an advance() where the last line is `line_s` seconds old.
+/// A progress bar on stderr while stderr is a terminal, erased when it ends; otherwise a line every
+/// `line_s` seconds, also while one step takes longer.
 class Progress {
  public:
     /// `shown` is false with --quiet.
@@ -33,6 +37,7 @@ class Progress {
 
  private:
     void draw();
+    void draw_lines(const std::stop_token& end);
 
     std::string label_;
     std::size_t done_ = 0;
@@ -42,6 +47,9 @@ class Progress {
     double next_line_s_ = line_s_;
     bool terminal_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    std::mutex mutex_;  // guards what `lines_` reads
+    std::condition_variable_any ended_;
+    std::jthread lines_;  // off a terminal
 };
 
 }  // namespace kilolux

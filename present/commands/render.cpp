@@ -94,9 +94,8 @@ void report_pictures(const RenderOptions& options, SceneRenderer& pictures,
         write_json(out.stats, stats, written.log ? &*written.log : nullptr);
     }
     const Renderer& renderer = pictures.renderer();
-    note(frame_summary(
-        renderer.scene(), renderer.device(), written.last,
-        {written.count, renderer.gpu().programs->build_seconds(), options.shared.verbose}));
+    note(frame_summary(written.last, {written.count, renderer.gpu().programs->build_seconds(),
+                                      options.shared.verbose}));
     if (!made.shares.empty()) note(share_lines(made.shares));
     std::string failures = failures_of(made.shares);
     if (!failures.empty()) failures += "; the other devices made the rest";
@@ -150,7 +149,9 @@ void render_from(RenderOptions& options, const PictureTasks& tasks, std::size_t 
     }
     SceneRenderer pictures(options.shared, options.budget, start);
     if (helpers != nullptr) helpers->wait_until_ready();
-    note(pictures.rig_lines());  // before the frames, which may take minutes
+    // Before the frames, which may take minutes.
+    note(picture_header(pictures.renderer()));
+    note(pictures.rig_lines());
     if (options.shared.automatic_exposure) expose_automatically(options, pictures);
     report_pictures(options, pictures,
                     helpers != nullptr

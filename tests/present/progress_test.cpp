@@ -6,6 +6,7 @@
 #include <pty.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 
 #include "tests/support/messages.h"
@@ -65,6 +66,7 @@ TEST(Progress, Lines) {
     EXPECT_TRUE(contains(progress_line("f", 1, 2, 600.0, 79), "10:00 min left"));
     EXPECT_TRUE(contains(progress_line("f", 1, 101, 180.0, 79), "5:00 h left"));
     EXPECT_TRUE(contains(progress_line("f", 0, 0, 0.0, 79), "100 %"));
+    EXPECT_TRUE(progress_line("f", 0, 1, 30.0, 79).ends_with("0 %, 30 s so far"));
 }
 
 TEST(Progress, NeverWiderThanTheTerminal) {
@@ -108,6 +110,17 @@ TEST(Progress, WritesALineNowAndThenOffATerminal) {
     EXPECT_NE(lines.find("rendering 1/3 ["), std::string::npos) << lines;
     EXPECT_EQ(lines.find('\r'), std::string::npos) << lines;
     EXPECT_TRUE(lines.ends_with('\n')) << lines;
+}
+
+TEST(Progress, WritesLinesWhileAStepLasts) {
+    testing::internal::CaptureStderr();
+    {
+        const Progress progress("rendering", 1, true, 0.02);
+        usleep(500'000);
+    }
+    const std::string lines = testing::internal::GetCapturedStderr();
+    EXPECT_GE(std::ranges::count(lines, '\n'), 2) << lines;
+    EXPECT_TRUE(lines.starts_with("rendering 0/1 [")) << lines;
 }
 
 }  // namespace

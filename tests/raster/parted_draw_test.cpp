@@ -2,6 +2,7 @@
 // The parts of a watched pass: what is drawn, and what its watch hears of.
 #include "raster/parted_draw.h"
 
+#include <limits>
 #include <thread>
 
 #include "host/base/error.h"
@@ -12,15 +13,18 @@ namespace {
 
 using PartedDrawTest = GlTest;
 
+constexpr double kUnknown = std::numeric_limits<double>::infinity();
+
 struct Part {
     int first = 0, rows = 0;
 };
 
 // Draws as a thread of the window does; a part takes at least `time`.
-std::vector<Part> parts_of(int height, std::chrono::milliseconds time = {}) {
+std::vector<Part> parts_of(int height, std::chrono::milliseconds time = {},
+                           double expected_s = kUnknown) {
     const WorkWatch watch([](double) {});
     std::vector<Part> parts;
-    draw_in_parts(7, height, [&] {
+    draw_in_parts(7, height, {expected_s}, [&] {
         int box[4];
         glGetIntegerv(GL_SCISSOR_BOX, box);
         EXPECT_EQ(box[0], 0);
@@ -53,6 +57,40 @@ TEST_F(PartedDrawTest, SlowPartsStaySmall) {
     EXPECT_EQ(parts.size(), 6u);
 }
 
+TEST_F(PartedDrawTest, APassIsDividedByWhatItTookBefore) {
+    EXPECT_EQ(parts_of(24, {}, 0.2).at(0).rows, 12);
+    EXPECT_EQ(parts_of(24, {}, 1e6).at(0).rows, 4);
+    const WorkWatch watch([](double) { FAIL() << "a short pass is one part"; });
+    int drawn = 0;
+    draw_in_parts(7, 24, {0.09}, [&] {
+        ++drawn;
+        EXPECT_FALSE(glIsEnabled(GL_SCISSOR_TEST));
+    });
+    EXPECT_EQ(drawn, 1);
+}
+
+TEST_F(PartedDrawTest, RowsThatAreSlowAreDrawnByColumns) {
+    const WorkWatch watch([](double) {});
+    constexpr int kWidth = 100, kHeight = 10;
+    std::vector<int> drawn(static_cast<std::size_t>(kWidth) * 12);
+    int first = 0;
+    draw_in_parts(kWidth, kHeight, {kUnknown, 64.0}, [&] {
+        int box[4];
+        glGetIntegerv(GL_SCISSOR_BOX, box);
+        if (first == 0) first = box[2] * box[3];
+        for (int y = box[1]; y < box[1] + box[3]; ++y) {
+            for (int x = box[0]; x < box[0] + box[2]; ++x) {
+                ++drawn.at(static_cast<std::size_t>(y * kWidth + x));
+            }
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    });
+    EXPECT_EQ(first, 64);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(kWidth) * kHeight; ++i) {
+        ASSERT_EQ(drawn[i], 1) << i;
+    }
+}
+
 TEST_F(PartedDrawTest, TheWatchHearsTheShareAndCanGiveUp) {
     std::vector<double> shares;
     const WorkWatch watch([&](double share) {
@@ -64,7 +102,7 @@ TEST_F(PartedDrawTest, TheWatchHearsTheShareAndCanGiveUp) {
         ++drawn;
         std::this_thread::sleep_for(std::chrono::milliseconds(110));
     };
-    EXPECT_THROW(draw_in_parts(7, 16, slow), Interrupted);
+    EXPECT_THROW(draw_in_parts(7, 16, {}, slow), Interrupted);
     glDisable(GL_SCISSOR_TEST);
     EXPECT_EQ(drawn, 2);
     EXPECT_EQ(shares, (std::vector<double>{0.0, 0.25, 0.5}));
@@ -72,7 +110,7 @@ TEST_F(PartedDrawTest, TheWatchHearsTheShareAndCanGiveUp) {
 
 TEST_F(PartedDrawTest, NobodyWatchesAWholePass) {
     int drawn = 0;
-    draw_in_parts(7, 330, [&] {
+    draw_in_parts(7, 330, {}, [&] {
         ++drawn;
         EXPECT_FALSE(glIsEnabled(GL_SCISSOR_TEST));
     });

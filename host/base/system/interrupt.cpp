@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <limits>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -25,6 +26,7 @@ struct UnfinishedFile {
 
 struct SignalState {
     std::atomic<bool> requested = false;
+    std::atomic<bool> catches = false;
     std::mutex mutex;  // guards `unfinished`
     std::vector<UnfinishedFile> unfinished;
 };
@@ -74,6 +76,7 @@ void take_signals(const sigset_t& signals) {
 // compiled, and the compiler then reports that they are missing.
 void catch_signals() {
     state().requested = false;
+    state().catches = true;
     for (const int number : {SIGXFSZ, SIGPIPE}) signal(number, SIG_IGN);
     signal(SIGCHLD,
            SIG_DFL);  // ignored, as a parent may leave it, children could not be waited for
@@ -94,7 +97,12 @@ void check_interrupt_at(double share) {
 WorkWatch::WorkWatch(Call call)
     : call_(std::move(call)), outer_(std::exchange(watch_of_thread, this)) {}
 WorkWatch::~WorkWatch() { watch_of_thread = outer_; }
-bool WorkWatch::is_present() { return watch_of_thread != nullptr; }
+
+double part_seconds() {
+    constexpr double kWatched = 0.1, kCaught = 1.5;
+    if (watch_of_thread != nullptr) return kWatched;
+    return state().catches ? kCaught : std::numeric_limits<double>::infinity();
+}
 
 void add_unfinished_file(const std::filesystem::path& file) {
     struct stat status = {};

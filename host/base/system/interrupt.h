@@ -32,14 +32,17 @@ class WorkWatch {
     WorkWatch(const WorkWatch&) = delete;
     WorkWatch& operator=(const WorkWatch&) = delete;
 
-    /// Whether this thread's work is watched: then it is worth splitting into short parts.
-    static bool is_present();
-
  private:
     friend void check_interrupt_at(double share);
+    friend double part_seconds();
     Call call_;
     WorkWatch* outer_;
 };
+
+/// How long a part of long work may take between two calls of check_interrupt() [s]: short where
+/// this thread's work is watched, longer in a program that called catch_signals(), infinite
+/// elsewhere, where nothing would end the work.
+double part_seconds();
 
 /// Names an existing file that a killing signal must remove, as long as the name means the same
 /// file.

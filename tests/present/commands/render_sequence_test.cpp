@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <time.h>
 
+#include <chrono>
+
 #include "present/image/image_file.h"
 #include "tests/support/child.h"
 #include "tests/support/messages.h"
@@ -100,6 +102,35 @@ TEST(RenderSequence, ASequenceOfTwoThousandMillionFramesStarts) {
     });
     EXPECT_EQ(result.code, 130) << result.err;
     EXPECT_TRUE(names_in(folder).contains("f.0.exr"));
+}
+
+// OpenGL on a CPU draws such a picture in minutes.
+TEST(RenderSequence, ASignalEndsAPictureThatOpenGlDraws) {
+    const TemporaryFolder folder;
+    const std::vector<std::string> words = {"render",
+                                            "atrium",
+                                            "--renderer",
+                                            "forward",
+                                            "--lights",
+                                            "60000",
+                                            "--resolution",
+                                            "1280,720",
+                                            "--quiet",
+                                            "-o",
+                                            (folder / "a.png").string()};
+    std::chrono::steady_clock::time_point sent;
+    const ChildResult result = run_kilolux(words, [&](pid_t child) {
+        const timespec compiled{5, 0};
+        nanosleep(&compiled, nullptr);
+        sent = std::chrono::steady_clock::now();
+        kill(child, SIGTERM);
+    });
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - sent;
+    if (result.code == 0) GTEST_SKIP() << "this OpenGL draws it in less";
+    EXPECT_EQ(result.code, 130) << "signal " << result.signal << " " << result.err;
+    EXPECT_EQ(result.err, "kilolux: interrupted\n");
+    EXPECT_LT(taken.count(), 30.0) << "of minutes";
+    EXPECT_TRUE(names_in(folder).empty());
 }
 
 TEST(RenderSequence, ASignalEndsASequenceBetweenFrames) {

@@ -297,6 +297,17 @@ Frame sky_of(float light) {
     return frame;
 }
 
+TEST(Render, SaysFirstWhatItRenders) {
+    const TemporaryFolder folder;
+    const ChildResult result = run_kilolux(small_render(folder / "a.png", {"--samples", "2"}));
+    const std::size_t device = result.err.find("device  "), rig = result.err.find("\nrig  ");
+    const std::size_t picture =
+        result.err.find("\npicture 48x32, deferred, grid 16x9x4, 2 samples\n");
+    EXPECT_EQ(device, 0u) << result.err;
+    EXPECT_LT(picture, rig) << result.err;
+    EXPECT_LT(rig, result.err.find("\nlights  20 of 20 used")) << result.err;
+}
+
 TEST(Render, AMissingEnvironmentIsFoundBeforeTheSceneIsLoaded) {
     for (const char* command : {"render", "bench", "report"}) {
         const ChildResult result = run_kilolux({command, "no_such_scene.gltf", "--environment",
