@@ -11,7 +11,6 @@
 #include "host/scene/gltf/nodes.h"
 #include "host/scene/gltf/parallel.h"
 #include "host/scene/gltf/shapes.h"
-#include "host/scene/look_around.h"
 
 namespace kilolux {
 

@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
+#include "host/scene/enclosure.h"
 #include "host/scene/framing.h"
 #include "host/scene/gltf/load_scene.h"
-#include "host/scene/look_around.h"
 
 namespace kilolux {
 

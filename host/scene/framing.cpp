@@ -15,17 +15,6 @@ constexpr double kInsideAngle = 55.0;  // vertical [degree]
 constexpr double kNearShare = 1e-3;    // near plane, of the box's diagonal
 constexpr std::size_t kOpposite = 16;  // level directions: those of faces in opposite pairs
 
-// Distance from a point inside the box to its side along a direction [m].
-double way_out(const Box& box, const glm::dvec3& from, const glm::dvec3& direction) {
-    double way = glm::length(box.size());
-    for (int axis = 0; axis < 3; ++axis) {
-        if (direction[axis] == 0.0) continue;
-        const double side = direction[axis] > 0.0 ? box.max[axis] : box.min[axis];
-        way = std::min(way, (side - from[axis]) / direction[axis]);
-    }
-    return std::max(way, 0.0);
-}
-
 std::size_t opposite(std::size_t level) {
     return level / kOpposite % 2 == 0 ? level + kOpposite : level - kOpposite;
 }

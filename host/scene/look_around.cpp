@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <type_traits>
 
 #include "host/base/error.h"
@@ -15,18 +14,11 @@
 namespace kilolux {
 namespace {
 
-constexpr double kEnclosedShare = 0.5;    // of the rays from within: hit front faces
-constexpr double kClosedShare = 0.5;      // of the rays from the middle: hit back faces
-constexpr double kOpenShare = 1.0 / 3.0;  // of the surface's view: outside
-constexpr std::size_t kInnerRays = 1024;  // from a point
-constexpr std::size_t kLineWays = 64;     // directions of lines through the scene
-constexpr int kLines = 10;                // of each direction, along the edge of a square
-constexpr int kMostHits = 100;            // of a line
-constexpr double kApart = 1e-6f;          // of the box's diagonal: surfaces on a line
-constexpr double kFarthest = 1e7;         // coordinate of a ray, in units of the scene
-constexpr double kMostEntry = 1e9;        // of an instance's matrix and its inverse: Embree ends
-                                          // the program where a ray becomes 1.8e18 long
-constexpr int kCells = 16;                // of a cube's face, along an edge: see level()
+constexpr double kApart = 1e-6f;    // of the box's diagonal: surfaces on a line
+constexpr double kFarthest = 1e7;   // coordinate of a ray, in units of the scene
+constexpr double kMostEntry = 1e9;  // of an instance's matrix and its inverse: Embree ends
+                                    // the program where a ray becomes 1.8e18 long
+constexpr int kCells = 16;          // of a cube's face, along an edge: see level()
 
 // The axes of a cube's level faces: across, through.
 struct Face {
@@ -36,19 +28,6 @@ constexpr Face kLevelFaces[4] = {{{0, 0, -1}, {1, 0, 0}},
                                  {{0, 0, 1}, {-1, 0, 0}},
                                  {{1, 0, 0}, {0, 0, 1}},
                                  {{-1, 0, 0}, {0, 0, -1}}};
-
-// Points of a Fibonacci lattice on the unit sphere.
-std::vector<glm::dvec3> directions(std::size_t count) {
-    std::vector<glm::dvec3> out;
-    for (std::size_t i = 0; i < count; ++i) {
-        const auto at = static_cast<double>(i);
-        const double y = 1.0 - (2.0 * at + 1.0) / static_cast<double>(count);
-        const double turn = 2.0 * std::numbers::pi * std::fmod(at / std::numbers::phi, 1.0);
-        const double radius = std::sqrt(1.0 - y * y);
-        out.emplace_back(radius * std::cos(turn), y, radius * std::sin(turn));
-    }
-    return out;
-}
 
 struct DeviceDeleter {
     void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
@@ -132,44 +111,6 @@ bool has_size(RTCScene mesh, const glm::mat4& moved) {
     return std::max({size.x, size.y, size.z}) > kRounding * std::max({place.x, place.y, place.z});
 }
 
-// The middle of a box, and points beside it, since an object may stand in the middle of a room.
-std::vector<glm::dvec3> inner_points(const Box& box) {
-    const glm::dvec3 step = 0.25 * box.size();
-    const glm::dvec3 c = box.center();
-    return {c, c + glm::dvec3(step.x, 0, 0), c - glm::dvec3(step.x, 0, 0),
-            c + glm::dvec3(0, 0, step.z), c - glm::dvec3(0, 0, step.z)};
-}
-
-template <typename Test>
-double share_of(const std::vector<glm::dvec3>& ways, const Test& test) {
-    const auto count = std::count_if(ways.begin(), ways.end(), test);
-    return static_cast<double>(count) / static_cast<double>(ways.size());
-}
-
-// Lines of a grid across a sphere meet each part of a surface in proportion to its area, from all
-// sides alike. A front face that is first on its line is seen from outside.
-double open_share(const LookAround& around, const Box& box) {
-    std::size_t fronts = 0, open = 0;
-    const double radius = 0.5 * glm::length(box.size());
-    const auto place = [&](int i) { return radius * ((2.0 * i + 1.0) / kLines - 1.0); };
-    for (const glm::dvec3& way : directions(kLineWays)) {
-        const glm::dvec3 right = glm::normalize(glm::cross(
-            way, glm::dvec3(std::abs(way.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0))));
-        const glm::dvec3 up = glm::cross(right, way);
-        for (int i = 0; i < kLines * kLines; ++i) {
-            const glm::dvec3 eye = box.center() - 2.0 * radius * way + place(i % kLines) * right +
-                                   place(i / kLines) * up;
-            LookAround::Hit hit = around.first_hit(eye, way);
-            open += hit.side == LookAround::Side::front;
-            for (int n = 0; n < kMostHits && hit.side != LookAround::Side::none; ++n) {
-                fronts += hit.side == LookAround::Side::front;
-                hit = around.first_hit(eye, way, hit.distance);
-            }
-        }
-    }
-    return fronts == 0 ? 0.0 : static_cast<double>(open) / static_cast<double>(fronts);
-}
-
 }  // namespace
 
 // Embree's scene of the instances. Its numbers are floats, and it ends the program where they leave
@@ -227,7 +168,8 @@ struct LookAround::Rays {
         const double along = glm::dot(normal, ray);
         const bool mirrored = glm::determinant(glm::dmat3(instance.world_from_object)) < 0.0;
         const double distance = glm::dot(normal, first) / along * glm::length(ray);
-        return {static_cast<float>(distance), (along < 0.0) != mirrored ? Side::front : Side::back};
+        return {static_cast<float>(distance), (along < 0.0) != mirrored ? Side::front : Side::back,
+                (mirrored ? -1.0 : 1.0) * glm::normalize(normal)};
     }
 };
 
@@ -302,25 +244,14 @@ double LookAround::below(const glm::dvec3& eye) const {
     return least;
 }
 
-Enclosure enclosure_of(const Scene& scene, const Box& box) {
-    Enclosure out;
-    if (box.empty()) return out;
-    const LookAround around(scene, box);
-    const auto share = [&](const glm::dvec3& eye, LookAround::Side side) {
-        return share_of(directions(kInnerRays), [&](const glm::dvec3& way) {
-            return around.first_hit(eye, way).side == side;
-        });
-    };
-    for (const glm::dvec3& eye : inner_points(box)) {
-        out.within = std::max(out.within, share(eye, LookAround::Side::front));
+double way_out(const Box& box, const glm::dvec3& from, const glm::dvec3& direction) {
+    double way = glm::length(box.size());
+    for (int axis = 0; axis < 3; ++axis) {
+        if (direction[axis] == 0.0) continue;
+        const double side = direction[axis] > 0.0 ? box.max[axis] : box.min[axis];
+        way = std::min(way, (side - from[axis]) / direction[axis]);
     }
-    out.open = open_share(around, box);
-    if (out.within >= kEnclosedShare && out.open < kOpenShare) {
-        out.kind = SceneKind::interior;
-    } else if (share(box.center(), LookAround::Side::back) >= kClosedShare) {
-        out.kind = SceneKind::closed;
-    }
-    return out;
+    return std::max(way, 0.0);
 }
 
 }  // namespace kilolux

@@ -23,6 +23,7 @@ class LookAround {
     struct Hit {
         float distance = std::numeric_limits<float>::infinity();  // [m]; infinite: no surface
         Side side = Side::none;
+        glm::dvec3 normal{0.0};  // unit, of the triangle's front
     };
     /// The first surface along a direction that is farther from the eye than `beyond`, in lengths
     /// of the direction.
@@ -44,17 +45,7 @@ class LookAround {
     std::unique_ptr<Rays> rays_;
 };
 
-/// How a scene encloses what is within it.
-struct Enclosure {
-    SceneKind kind = SceneKind::open;
-    double within = 0.0;  // share of the rays from a point within that meet fronts
-    double open = 0.0;    // share of the view of its front faces that is outside
-};
-
-/// `interior`: at least half of the rays from a point within meet front faces, and less than a
-/// third of the view of its front faces is outside: from there it would show back faces, nothing,
-/// or little of itself. `closed`: at least half of the rays from its middle meet back faces. Else
-/// `open`.
-Enclosure enclosure_of(const Scene& scene, const Box& box);
+/// Distance from a point inside the box to its side along a unit direction [m].
+double way_out(const Box& box, const glm::dvec3& from, const glm::dvec3& direction);
 
 }  // namespace kilolux

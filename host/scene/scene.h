@@ -170,7 +170,7 @@ struct Clip {
     std::string broken{};  // why it cannot play, if so: the error that it would end in
 };
 
-/// The surroundings of the middle of a scene's box: see look_around.h.
+/// The surroundings of the middle of a scene's box: see enclosure.h.
 enum class SceneKind {
     open,      // neither of the others: terrain, a tree, a crowd
     closed,    // the inside of an object
@@ -211,7 +211,7 @@ struct Scene {
     SceneRevisions revisions;
 };
 
-/// Box of all instances' vertices in world space.
+/// Box of all instances' triangles in world space, without specks and those that have no area.
 Box bounds(const Scene& scene);
 
 /// Vertex normals without a direction (zero, or not finite): they are drawn as +Z of the view.

@@ -9,6 +9,7 @@
 #include "host/measure/bench/sweep.h"
 #include "host/measure/roofline/stage_report.h"
 #include "host/measure/roofline/stages.h"
+#include "host/picture/listed_lights.h"
 #include "present/cli/names.h"
 #include "present/cli/option_values.h"
 #include "present/video/video_file.h"
@@ -46,8 +47,7 @@ std::string stage_lines(const FrameStats& stats) {
 std::string light_line(const FrameStats& s) {
     std::string out = fmt::format("lights  {} of {} used, {} rejected", s.lights_used,
                                   s.lights_given, s.lights_rejected);
-    // Directional lights are in no list.
-    const bool listed = s.lights_used > s.directional_lights;
+    const bool listed = lists_lights(s);
     if (listed && s.evaluations_per_pixel >= 0.0) {
         out += fmt::format("; {:.1f} evaluated a pixel", s.evaluations_per_pixel);
     }

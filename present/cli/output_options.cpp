@@ -104,7 +104,8 @@ void visit_sequence(const SettingVisitor& f, OutputOptions& o) {
               o.camera_keys)
         .flag("--skip-existing", o.skip_existing,
               "Skip frames whose file holds this picture already, by its size and notes of command "
-              "and input files, or a video that holds these frames. Another picture there is an error; "
+              "and input files, or a video that holds these frames. Another picture there is an "
+              "error; "
               "an unreadable file is made again");
 }
 

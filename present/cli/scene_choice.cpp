@@ -99,12 +99,20 @@ std::string view_line(const SharedOptions& options, const AnimatedScene& scene) 
     const SeenFrom from =
         scene.scene().kind == SceneKind::interior ? SeenFrom::inside : SeenFrom::outside;
     if (asked != SeenFrom::automatic) return fmt::format("view    {} (--view)\n", name_of(from));
-    const Enclosure& seen = scene.enclosure();
-    return fmt::format(
-        "view    {} (automatic): surfaces face {:.0f} % of what a point within sees, and {:.0f} % "
-        "of "
-        "what they face is outside\n",
-        name_of(from), 100.0 * seen.within, 100.0 * seen.open);
+    return fmt::format("view    {} (automatic): {}\n", name_of(from), scene.enclosure().reason);
+}
+
+// Why an automatic rig is that of an interior or of an object, where no line of the view says it.
+std::string rig_reason(const SharedOptions& options, const AnimatedScene& scene) {
+    const bool decides = scene.scene().lights.empty() && options.environment.empty() &&
+                         !options.lights_given && !asks_for_swarm(options);
+    if (!decides || options.rig != Rig::automatic || is_generated_scene(options.scene) ||
+        !view_line(options, scene).empty()) {
+        return "";
+    }
+    const bool interior = scene.scene().kind == SceneKind::interior;
+    return fmt::format(", as the scene is {}: {}", interior ? "an interior" : "an object",
+                       scene.enclosure().reason);
 }
 
 std::string rig_line(Rig rig, bool automatic, const RenderSettings& settings, std::size_t own) {
@@ -160,8 +168,8 @@ std::string add_environment(SharedOptions& options, AnimatedScene& scene) {
         environment_of(options.environment, options.settings.max_memory_bytes);
     std::string line = fmt::format("; environment {}: ", options.environment);
     if (options.reflections) {
-        options.maps = std::make_shared<const PrefilteredEnvironment>(
-            kept_prefiltered(options.environment, environment));
+        options.maps =
+            std::make_shared<const PrefilteredEnvironment>(kept_prefiltered(environment));
         line += "prefiltered";
         if (has_blended_surfaces(scene.scene())) line += ", which does not light what blends";
     } else {
@@ -241,6 +249,7 @@ std::string light_scene(SharedOptions& options, AnimatedScene& scene) {
     scene.see_from(options.camera.view);
     const bool automatic = options.rig == Rig::automatic;
     Rig rig = rig_of(options, scene.scene());
+    const std::string reason = rig_reason(options, scene);
     const bool metal = automatic && rig == Rig::studio && wants_reflections(options, scene.scene());
     if (metal) {
         reflect_studio(options);
@@ -263,7 +272,7 @@ std::string light_scene(SharedOptions& options, AnimatedScene& scene) {
     // The rig option stays automatic if the automatic rig has the swarm: a copied command then
     // needs no --rig.
     options.rig = rig == Rig::swarm && has_swarm ? Rig::automatic : rig;
-    return view_line(options, scene) + rig_line(rig, automatic, options.settings, own) +
+    return view_line(options, scene) + rig_line(rig, automatic, options.settings, own) + reason +
            from_around + (metal ? " (a studio's room, as most of the surface is metal)" : "") +
            tails_line(scene.scene(), options.settings, finds_tails) +
            choose_tone_curve(options, scene.scene());

@@ -6,6 +6,7 @@
 #include "host/base/error.h"
 #include "host/base/system/atomic_write.h"
 #include "host/measure/roofline/stage_report.h"
+#include "host/picture/listed_lights.h"
 
 namespace kilolux {
 namespace {
@@ -36,7 +37,9 @@ void add_frame(Json& out, const FrameRecord& record) {
     if (s.triangles > 0) {
         out["triangles"] = {{"in_view", s.triangles}, {"tile_pairs", s.triangle_pairs}};
     }
-    const auto counted = [](double mean) { return mean < 0.0 ? Json(nullptr) : Json(mean); };
+    const auto counted = [&](double mean) {
+        return mean < 0.0 || !lists_lights(s) ? Json(nullptr) : Json(mean);
+    };
     out["evaluations"] = {{"per_pixel", counted(s.evaluations_per_pixel)},
                           {"useful_per_pixel", counted(s.useful_evaluations_per_pixel)}};
     if (s.samples.total > 0) {

@@ -57,11 +57,19 @@ void check_files(const RenderOptions& options, const PictureTasks& tasks,
     require_reference_size(first.reference, settings.width, settings.height);
 }
 
-void warn_of_exposure(const RenderOptions& options) {
-    const bool exposes =
-        options.shared.automatic_exposure || options.shared.settings.exposure != 0.0f;
-    if (!exposes || is_for_the_eye(options.output.output)) return;
-    note(options.output.output.string() + ": holds linear light, which --exposure does not change");
+// Says which options change only what a display shows.
+void warn_of_linear_light(const RenderOptions& options) {
+    if (is_for_the_eye(options.output.output)) return;
+    const SharedOptions& shared = options.shared;
+    std::vector<std::string> words;
+    if (shared.automatic_exposure || shared.settings.exposure != 0.0f)
+        words.push_back("--exposure");
+    if (shared.tone_curve_given) words.push_back("--tonemap");
+    if (shared.settings.bloom > 0.0f) words.push_back("--bloom");
+    if (words.empty()) return;
+    note(fmt::format("{}: holds linear light, which {} {} not change",
+                     options.output.output.string(), fmt::join(words, " and "),
+                     words.size() == 1 ? "does" : "do"));
 }
 
 // Whether the picture has transparent background: --background none, where the format has alpha.
@@ -172,7 +180,7 @@ void run_render(RenderOptions& options) {
     check_files(options, tasks, first);
     check_light_memory(options.shared.lights_given ? options.shared.settings.lights.count : 0,
                        options.shared.settings);
-    warn_of_exposure(options);
+    warn_of_linear_light(options);
     render_from(options, tasks, begin, more_devices);
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
 #include <optional>
 
 #include "host/base/error.h"
@@ -10,13 +11,14 @@
 #include "host/base/log.h"
 #include "host/base/version.h"
 #include "host/gpu/tuning/device_cache.h"
-#include "host/scene/lights/built_in_environments.h"
 
 namespace kilolux {
 namespace {
 
 constexpr std::string_view kFormat = "kilolux-prefiltered 1 ";
 constexpr std::size_t kLargest = std::size_t{64} << 20;  // [byte]; ours have 10 MiB
+constexpr std::string_view kPrefix = "prefiltered-";
+constexpr std::size_t kMostFiles = 8;
 
 template <typename T>
 std::string_view bytes_of(const std::vector<T>& values) {
@@ -69,21 +71,46 @@ std::optional<PrefilteredEnvironment> parsed(std::string_view file, const std::s
     return out;
 }
 
-}  // namespace
+namespace fs = std::filesystem;
 
-PrefilteredEnvironment kept_prefiltered(const std::string& name, const Environment& environment) {
-    const std::filesystem::path folder = cache_folder();
-    if (folder.empty() || !is_built_in_environment(name)) return prefiltered(environment);
-    const std::filesystem::path file = folder / ("prefiltered-" + name);
-    const std::string head = head_of(environment);
-    if (auto kept = parsed(read_cache_file(file, kLargest), head)) return std::move(*kept);
-    PrefilteredEnvironment made = prefiltered(environment);
-    const std::string body = body_of(made);
+// Removes the oldest files beyond those that are kept. Other programs may remove some, too.
+void remove_oldest(const fs::path& folder) {
+    std::error_code error;
+    std::vector<std::pair<fs::file_time_type, fs::path>> files;
+    for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+        if (at->path().filename().native().starts_with(kPrefix)) {
+            files.emplace_back(at->last_write_time(error), at->path());
+        }
+    }
+    std::ranges::sort(files, std::greater());
+    for (std::size_t i = kMostFiles; i < files.size(); ++i) fs::remove(files[i].second, error);
+}
+
+void keep(const fs::path& file, const std::string& head, const PrefilteredEnvironment& maps) {
+    const std::string body = body_of(maps);
     try {
         write_cache_file(file, head + hash_text(body) + "\n" + body);
     } catch (const Error& error) {
         detail(error.what());
+        return;
     }
+    remove_oldest(file.parent_path());
+}
+
+}  // namespace
+
+PrefilteredEnvironment kept_prefiltered(const Environment& environment) {
+    const fs::path folder = cache_folder();
+    if (folder.empty()) return prefiltered(environment);
+    const std::string head = head_of(environment);
+    const fs::path file = folder / (std::string(kPrefix) + hash_text(head));
+    if (auto kept = parsed(read_cache_file(file, kLargest), head)) {
+        std::error_code error;
+        fs::last_write_time(file, fs::file_time_type::clock::now(), error);
+        return std::move(*kept);
+    }
+    PrefilteredEnvironment made = prefiltered(environment);
+    keep(file, head, made);
     return made;
 }
 

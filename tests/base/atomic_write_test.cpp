@@ -7,6 +7,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <functional>
+
 #include "host/base/system/interrupt.h"
 #include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
@@ -65,6 +67,21 @@ TEST(AtomicWrite, WritesThroughALink) {
     EXPECT_TRUE(fs::is_symlink(folder / "dangling"));
     EXPECT_TRUE(fs::is_symlink(folder / "link_of_link"));
     EXPECT_EQ(text_of_file(folder / "new_target"), "there");
+}
+
+TEST(AtomicWrite, LinksToEachOtherAndLongNamesAreRefusedBeforeWork) {
+    const TemporaryFolder folder;
+    const fs::path loop = folder / "loop.png", longest = folder / std::string(256, 'a');
+    fs::create_symlink("loop.png", loop);
+    for (const auto& write : {std::function([&] { check_can_write(loop); }),
+                              std::function([&] { write_atomically(loop, "x"); })}) {
+        EXPECT_EQ(message_of<Error>(write),
+                  loop.string() + ": cannot write: Too many levels of symbolic links");
+    }
+    EXPECT_TRUE(fs::is_symlink(loop));
+    EXPECT_EQ(message_of<Error>([&] { check_can_write(longest); }),
+              longest.string() + ": cannot write: File name too long");
+    EXPECT_NO_THROW(check_can_write(folder / std::string(255, 'a')));
 }
 
 TEST(AtomicWrite, SpecialFilesAreWrittenAndNotReplaced) {

@@ -16,10 +16,13 @@ TEST(FrameSummary, LightsOfNoListAreNotEvaluatedZeroTimes) {
     stats.evaluations_per_pixel = stats.useful_evaluations_per_pixel = 0.0;
     const auto text = [&] { return frame_summary(record, {}); };
     EXPECT_TRUE(text().starts_with("lights  5 of 5 used, 0 rejected\n")) << text();
+    const auto evaluations = [&] { return stats_json({}, {}, record)["evaluations"]["per_pixel"]; };
+    EXPECT_TRUE(evaluations().is_null());
     stats.directional_lights = 4;
     stats.evaluations_per_pixel = 0.5;
     EXPECT_TRUE(contains(text(), "used, 0 rejected; 0.5 evaluated a pixel, 0.0 useful\n"))
         << text();
+    EXPECT_EQ(evaluations(), 0.5);
 }
 
 TEST(FrameSummary, HasARowAGroupOrAStage) {

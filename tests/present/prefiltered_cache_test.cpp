@@ -3,9 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
+#include <chrono>
 
-#include "host/scene/lights/built_in_environments.h"
 #include "tests/support/environment_variable.h"
 #include "tests/support/temporary_folder.h"
 
@@ -22,30 +21,61 @@ bool same(const PrefilteredEnvironment& a, const PrefilteredEnvironment& b) {
            levels(a) == levels(b);
 }
 
+Environment painted(double red) {
+    return painted_environment(
+        16, [&](const glm::dvec3& d) { return glm::dvec3(red + d.x, 1.0 + d.y, 1.0); });
+}
+
+std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> out;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        out.push_back(entry.path());
+    }
+    return out;
+}
+
 TEST(PrefilteredCache, IsWhatWasMadeOrIsMadeAnew) {
     const TemporaryFolder folder;
     const EnvironmentVariable cache("XDG_CACHE_HOME", folder.path().string());
-    const Environment small = painted_environment(
-        16, [](const glm::dvec3& d) { return glm::dvec3(1.0 + d.x, 1.0 + d.y, 1.0); });
-    const Environment other =
-        painted_environment(16, [](const glm::dvec3&) { return glm::dvec3(1.0); });
+    const Environment small = painted(1.0), other = painted(2.0);
     const PrefilteredEnvironment made = prefiltered(small);
-    const auto file = folder.path() / "kilolux/prefiltered-studio";
-    EXPECT_TRUE(same(kept_prefiltered("room.hdr", small), made));
-    EXPECT_FALSE(std::filesystem::exists(file)) << "only what is built in is kept";
-    EXPECT_TRUE(same(kept_prefiltered("studio", small), made));
-    ASSERT_TRUE(std::filesystem::exists(file));
+    EXPECT_TRUE(same(kept_prefiltered(small), made));
+    const auto files = files_in(folder / "kilolux");
+    ASSERT_EQ(files.size(), 1u);
+    const std::filesystem::path& file = files.front();
     const std::string text = text_of_file(file);
-    EXPECT_TRUE(same(kept_prefiltered("studio", small), made)) << "read back";
+    EXPECT_TRUE(same(kept_prefiltered(small), made)) << "read back";
     for (const std::size_t at : {std::size_t{3}, text.size() / 2, text.size() - 1}) {
         std::string harmed = text;
         harmed[at] ^= 1;
         write_text(file, harmed);
-        EXPECT_TRUE(same(kept_prefiltered("studio", small), made)) << at;
+        EXPECT_TRUE(same(kept_prefiltered(small), made)) << at;
+        EXPECT_EQ(text_of_file(file), text) << "written anew";
     }
     write_text(file, text.substr(0, text.size() / 2));
-    EXPECT_TRUE(same(kept_prefiltered("studio", small), made));
-    EXPECT_FALSE(same(kept_prefiltered("studio", other), made)) << "of other light";
+    EXPECT_TRUE(same(kept_prefiltered(small), made));
+    EXPECT_FALSE(same(kept_prefiltered(other), made)) << "of other light";
+    EXPECT_EQ(files_in(folder / "kilolux").size(), 2u);
+}
+
+TEST(PrefilteredCache, KeepsTheLastEight) {
+    const TemporaryFolder folder;
+    const EnvironmentVariable cache("XDG_CACHE_HOME", folder.path().string());
+    kept_prefiltered(painted(1.0));
+    const std::filesystem::path first = files_in(folder / "kilolux").front();
+    for (int i = 2; i <= 8; ++i) kept_prefiltered(painted(i));
+    EXPECT_EQ(files_in(folder / "kilolux").size(), 8u);
+    std::filesystem::last_write_time(
+        first, std::filesystem::file_time_type::clock::now() - std::chrono::hours(1));
+    kept_prefiltered(painted(9.0));
+    EXPECT_EQ(files_in(folder / "kilolux").size(), 8u);
+    EXPECT_FALSE(std::filesystem::exists(first)) << "the oldest";
+}
+
+TEST(PrefilteredCache, AFolderThatCannotBeUsedIsNoError) {
+    const EnvironmentVariable cache("XDG_CACHE_HOME", "/dev/null");
+    const Environment small = painted(1.0);
+    EXPECT_TRUE(same(kept_prefiltered(small), prefiltered(small)));
 }
 
 }  // namespace

@@ -324,5 +324,27 @@ TEST(Ways, MakeTheSameSurfacesOfLoadedScenes) {
     }
 }
 
+// The packed G-buffer, which is the default, rounds albedo and roughness to 8 bits and normals to
+// 2 x 16; forward renderers have none.
+TEST(Ways, ForwardDiffersFromThePackedGBufferByItsRounding) {
+    constexpr double kMedianOfPacked = 0.01;  // of an albedo of 8 bits in sRGB
+    const auto check = [&](const Scene& scene, const Camera& camera) {
+        RenderSettings settings = way_settings();
+        settings.gbuffer = RenderSettings{}.gbuffer;
+        Ways ways(scene, camera, settings);
+        const Frame deferred = ways.deferred(Geometry::ids).frame;
+        for (const RendererKind kind : {RendererKind::forward, RendererKind::forward_plus}) {
+            const auto differences = picture_differences(deferred, ways.forward(kind).frame);
+            EXPECT_LT(quantile(differences, 0.5), kMedianOfPacked);
+            EXPECT_GT(quantile(differences, 0.5), kMedianOfPicture) << "is it packed?";
+        }
+    };
+    check(mapped_scene(), hill_camera());
+    const auto file =
+        std::filesystem::path(source_root()) / ".." / "shared/scenes/sponza/Sponza.gltf";
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+    check(load_scene(file), look_at({-8, 2, 0.5}, {4, 4, -2}, {0, 1, 0}, glm::radians(60.0)));
+}
+
 }  // namespace
 }  // namespace kilolux

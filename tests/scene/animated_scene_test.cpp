@@ -202,6 +202,29 @@ TEST(AnimatedScene, NodesHiddenByAScaleOfZeroAreOutsideOfNoBox) {
     EXPECT_EQ(bounds(scene).max, glm::dvec3(1e4 + 1.0, 1.0, 1.0));
 }
 
+// A bone of scale 0 and a morph target leave triangles without an area; rounding leaves specks.
+TEST(AnimatedScene, TrianglesWithoutAreaAndSpecksAreOutsideOfNoBox) {
+    Scene scene;
+    scene.meshes.assign(2, box_mesh(glm::dvec3(2.0)));
+    scene.instances = {{0, glm::dmat4(1.0)}, {1, glm::dmat4(1.0)}};
+    for (const float apart : {0.0f, 1e-4f}) {
+        for (std::size_t i = 0; i < scene.meshes[1].positions.size(); ++i) {
+            scene.meshes[1].positions[i] = {1e4f + apart * static_cast<float>(i % 3), 0.0f, 0.0f};
+        }
+        EXPECT_EQ(bounds(scene).max, glm::dvec3(1.0)) << apart;
+    }
+    scene.meshes[1] = scene.meshes[0];
+    scene.meshes[1].positions.emplace_back(1e4f, 0.0f, 0.0f);
+    EXPECT_EQ(bounds(scene).max, glm::dvec3(1.0)) << "no triangle uses it";
+    scene.instances[1].world_from_object = glm::dmat4(glm::dmat3(1e-6));
+    scene.instances[1].world_from_object[3] = {1e4, 0.0, 0.0, 1.0};
+    EXPECT_EQ(bounds(scene).max, glm::dvec3(1.0)) << "a speck";
+    const glm::dmat3 turned(glm::dvec3(0.6, 0.8, 0.0), glm::dvec3(0.3, 0.4, 0.0), glm::dvec3(0.0));
+    scene.instances[1].world_from_object = glm::dmat4(turned);
+    scene.instances[1].world_from_object[3] = {1e4, 0.0, 0.0, 1.0};
+    EXPECT_EQ(bounds(scene).max, glm::dvec3(1.0)) << "a line";
+}
+
 TEST(AnimatedScene, ThousandsOfTimesDoNotUseUpWhatAFileMayDecodeTo) {
     const TempFolder folder;
     const auto path = folder.path() / "m.glb";

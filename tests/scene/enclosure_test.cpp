@@ -7,28 +7,14 @@
 #include <numbers>
 
 #include "host/scene/animated_scene.h"
+#include "host/scene/enclosure.h"
 #include "host/scene/generated/mesh_builder.h"
 #include "host/scene/generated/scenes.h"
-#include "host/scene/look_around.h"
+#include "tests/scene/enclosure_cases.h"
 #include "tests/support/box_scene.h"
 
 namespace kilolux {
 namespace {
-
-using Build = std::function<void(MeshBuilder&)>;
-
-Scene scene_of(Mesh mesh) {
-    Scene scene;
-    scene.meshes.push_back(std::move(mesh));
-    scene.instances.push_back({0, glm::dmat4(1.0)});
-    return scene;
-}
-
-Scene built(const Build& build) {
-    MeshBuilder builder;
-    build(builder);
-    return scene_of(builder.build("shape", -1, 1.0, false));
-}
 
 // Walls that face inwards. Bits of `open` leave sides out: -x, +x, -y, +y, -z, +z.
 Mesh room(const glm::dvec3& size, unsigned open = 0) {
@@ -48,50 +34,12 @@ Scene furnished(const Mesh& walls, const Build& build) {
     return scene;
 }
 
-// Boxes given by their middle and size.
-void block(MeshBuilder& b, const glm::dvec3& middle, const glm::dvec3& size) {
-    b.box(middle - 0.5 * size, middle + 0.5 * size);
-}
-
-// A floor or a lid, walls, and thickness: an open crate where there is no lid.
-void crate(MeshBuilder& b, const glm::dvec3& at, const glm::dvec3& size, double wall,
-           unsigned open) {
-    for (int axis = 0; axis < 3; ++axis) {
-        for (const double side : {-0.5, 0.5}) {
-            if ((open >> (2 * axis + (side > 0.0)) & 1u) != 0) continue;
-            glm::dvec3 middle = at, plate = size;
-            middle[axis] += side * (size[axis] - wall);
-            plate[axis] = wall;
-            block(b, middle, plate);
-        }
-    }
-}
-
 void legs(MeshBuilder& b, const glm::dvec2& apart, double height) {
     for (const double x : {-0.5, 0.5}) {
         for (const double z : {-0.5, 0.5}) {
             block(b, {x * apart.x, 0.5 * height, z * apart.y}, {0.06, height, 0.06});
         }
     }
-}
-
-void ball(MeshBuilder& b, const glm::dvec3& at, double radius) {
-    std::vector<Point2> points;
-    for (int i = 0; i <= 12; ++i) {
-        const double angle = std::numbers::pi * (i / 12.0 - 0.5);
-        points.push_back(radius * Point2(std::cos(angle), std::sin(angle)));
-    }
-    b.lathe({points}, 16, at);
-}
-
-// A surface y = height(x, z) of 20 m by 20 m.
-void terrain(MeshBuilder& b, const std::function<double(double, double)>& height) {
-    b.smooth_patch(40, 40,
-                   [&](double u, double v) {
-                       const double x = 20.0 * u - 10.0, z = 10.0 - 20.0 * v;
-                       return glm::dvec3(x, height(x, z), z);
-                   },
-                   {1.0, 1.0});
 }
 
 void houses(MeshBuilder& b, double street) {
@@ -108,10 +56,31 @@ Scene inward_ball() {
     return scene;
 }
 
-struct Case {
-    const char* name;
-    Scene scene;
-};
+// Walls, floor and ceiling of sheets.
+Scene corner_room() {
+    const std::vector<glm::dvec2> corners = {{0, 0}, {6, 0}, {6, 3}, {3, 3}, {3, 6}, {0, 6}};
+    return built([&](MeshBuilder& b) {
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const glm::dvec2 from = corners[i], to = corners[(i + 1) % corners.size()];
+            b.quad({from.x, 0, from.y}, {to.x, 0, to.y}, {to.x, 3, to.y}, {from.x, 3, from.y},
+                   {from.y - to.y, 0, to.x - from.x});
+        }
+        for (const double up : {1.0, -1.0}) {
+            b.level({0, 0}, {6, 3}, 1.5 - 1.5 * up, up);
+            b.level({0, 3}, {3, 6}, 1.5 - 1.5 * up, up);
+        }
+    });
+}
+
+// Inner walls with doors.
+Scene flat() {
+    return furnished(room({12, 3, 8}), [](MeshBuilder& b) {
+        for (const double x : {-4.5, 0.0, 4.5}) block(b, {x, 0, 0}, {3, 3, 0.1});
+        for (const double x : {-2.0, 2.0}) {
+            for (const double z : {-2.5, 2.5}) block(b, {x, 0, z}, {0.1, 3, 3});
+        }
+    });
+}
 
 std::vector<Case> vessels_and_tubes() {
     const auto turned = [](std::vector<Point2> points) {
@@ -236,18 +205,17 @@ std::vector<Case> interiors() {
              block(b, {0, -0.2, 0}, {1.5, 2.6, 1.5});
          })});
     out.push_back({"dome", inward_ball()});
+    out.push_back({"room full of crates", furnished(room({10, 3, 10}), [](MeshBuilder& b) {
+                       each_place({4, 1, 4}, [&](const glm::dvec3& at) {
+                           block(b, {2.2 * at.x - 3.3, -0.9, 2.2 * at.z - 3.3}, {1, 1.2, 1});
+                       });
+                   })});
+    out.push_back({"flat of six rooms", flat()});
+    out.push_back({"L-shaped room", corner_room()});
     for (const char* name : {"atrium", "corridor"}) {
         out.push_back({name, make_generated_scene(name)});
     }
     return out;
-}
-
-void expect_interior(const std::vector<Case>& cases, bool interior) {
-    for (const Case& c : cases) {
-        const Enclosure seen = enclosure_of(c.scene, bounds(c.scene));
-        EXPECT_EQ(seen.kind == SceneKind::interior, interior)
-            << c.name << ": within " << seen.within << ", open " << seen.open;
-    }
 }
 
 TEST(Enclosure, VesselsAndTubesAreObjects) { expect_interior(vessels_and_tubes(), false); }

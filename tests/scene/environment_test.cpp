@@ -200,6 +200,30 @@ TEST(Environment, FilesOfIntegersAreEncodedAndPrimariesAreKept) {
     EXPECT_LT(e.rows.at(1).x, 0.15f);
 }
 
+// OpenImageIO leaves these lines of the header to its caller.
+TEST(Environment, TheHeaderOfARadianceFileCounts) {
+    const TempFolder folder;
+    const auto file = folder.path() / "a.hdr";
+    const auto first = [&](const std::string& lines, const std::string& rgbe) {
+        write_file(file,
+                   "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n" + lines + "\n-Y 1 +X 2\n" + rgbe + rgbe);
+        return read_environment(file).rows.at(0);
+    };
+    const std::string grey = "\x40\x40\x40\x81", green = "\x20\x40\x20\x81";
+    EXPECT_NEAR(first("", grey).x, 0.5f, 4e-3f);
+    const float plain = first("", grey).x;
+    EXPECT_FLOAT_EQ(first("EXPOSURE=2.0\n", grey).x, plain / 2.0f);
+    EXPECT_FLOAT_EQ(first("EXPOSURE= 2\nEXPOSURE=3\n", grey).x, plain / 6.0f);
+    EXPECT_FLOAT_EQ(first("COLORCORR= 2 1 4\n", grey).z, plain / 4.0f);
+    const std::string aces = "PRIMARIES= 0.7347 0.2653 0.0 1.0 0.0001 -0.077 0.32168 0.33767\n";
+    EXPECT_NEAR(first(aces, grey).x, plain, 1e-4f);
+    EXPECT_GT(first(aces, green).y, 1.05f * first("", green).y);
+    EXPECT_TRUE(contains(message_of<Error>([&] { first("EXPOSURE=0\n", grey); }),
+                         "a.hdr: EXPOSURE is 0, must be > 0"));
+    EXPECT_TRUE(contains(message_of<Error>([&] { first("PRIMARIES= 1 2\n", grey); }),
+                         "a.hdr: PRIMARIES is ' 1 2', must be 8 numbers"));
+}
+
 TEST(Environment, BrokenFilesAreOneLine) {
     const TempFolder folder;
     const auto file = folder.path() / "a.hdr";

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "host/scene/enclosure.h"
 #include "host/scene/generated/scenes.h"
 #include "host/scene/lights/light_generator.h"
-#include "host/scene/look_around.h"
 #include "tests/support/box_scene.h"
 
 namespace kilolux {

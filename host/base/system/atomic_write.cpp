@@ -21,6 +21,7 @@ fs::path folder_of(const fs::path& file) {
 }
 
 // Renaming onto a link would replace the link: returns the link's target, which need not exist.
+// Throws Error for links that lead to each other.
 fs::path target_of(fs::path file) {
     constexpr int kMostLinks = 40;  // as Linux follows (path_resolution(7))
     std::error_code error;
@@ -29,6 +30,10 @@ fs::path target_of(fs::path file) {
         const fs::path target = fs::read_symlink(file, error);
         if (error) break;
         file = folder_of(file) / target;
+    }
+    if (fs::is_symlink(fs::symlink_status(file, error))) {
+        errno = ELOOP;
+        fail_to_write(file);
     }
     return file;
 }
@@ -110,6 +115,11 @@ void check_can_write(const fs::path& file) {
         throw Error(file.string() + ": cannot write: there is no folder " + folder.string());
     }
     if (::access(folder.c_str(), W_OK | X_OK) != 0) fail_to_write(file);
+    const long longest = ::pathconf(folder.c_str(), _PC_NAME_MAX);
+    if (longest > 0 && file.filename().native().size() > static_cast<std::size_t>(longest)) {
+        errno = ENAMETOOLONG;
+        fail_to_write(file);
+    }
 }
 
 }  // namespace kilolux

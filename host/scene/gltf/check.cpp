@@ -206,17 +206,58 @@ void check_version(const json& root, const std::string& name) {
     }
 }
 
+constexpr std::string_view kAnimations = "animations";
+constexpr std::string_view kAnimation = "animations[]";
+
+// Checks each animation by itself, and notes the first error of each.
+void check_animations(GltfJson& file, const Checker& checker) {
+    const auto found = file.root.find(kAnimations);
+    if (found == file.root.end() || !found->is_array()) {
+        return checker.visit(file.root, checker.rule.path, {});
+    }
+    const JsonPlace top{}, all{&top, kAnimations};
+    for (std::size_t i = 0; i < found->size(); ++i) {
+        if (file.broken_animations.contains(i)) continue;
+        try {
+            const auto path = std::string_view(checker.rule.path).substr(kAnimation.size());
+            checker.visit((*found)[i], path, {&all, {}, i});
+        } catch (const Error& error) {
+            file.broken_animations.emplace(i, error.what());
+        }
+    }
+}
+
+// Leaves the names of broken animations.
+void empty_broken(GltfJson& file) {
+    for (const auto& [index, why] : file.broken_animations) {
+        json& animation = file.root.at(std::string(kAnimations))[index];
+        json kept = json::object();
+        if (animation.is_object() && animation.contains("name") &&
+            animation.at("name").is_string()) {
+            kept["name"] = animation.at("name");
+        }
+        animation = std::move(kept);
+    }
+}
+
 }  // namespace
 
-json parse_gltf_json(const JsonText& text, const std::string& name) {
-    json root = parse(text, name);
+GltfJson parse_gltf_json(const JsonText& text, const std::string& name) {
+    GltfJson out{parse(text, name)};
+    json& root = out.root;
     check_version(root, name);
     for (const GltfRule& rule : gltf_rules()) {
         const json::json_pointer target(rule.target);
         const bool has_target = rule.kind == JsonKind::index && root.contains(target);
-        Checker{name, rule, has_target ? root.at(target).size() : 0}.visit(root, rule.path, {});
+        const Checker checker{name, rule, has_target ? root.at(target).size() : 0};
+        if (rule.path.starts_with(kAnimation)) {
+            check_animations(out, checker);
+        } else {
+            checker.visit(root, rule.path, {});
+        }
     }
-    return root;
+    empty_broken(out);
+    return out;
 }
 
 }  // namespace kilolux

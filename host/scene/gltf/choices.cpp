@@ -106,9 +106,7 @@ double length_of(const GltfDocument& document, const tinygltf::Animation& animat
     return length;
 }
 
-}  // namespace
-
-std::vector<std::size_t> choose_clips(const GltfDocument& document) {
+std::vector<std::size_t> asked_clips(const GltfDocument& document) {
     const Names names = clip_names(document);
     const Names& asked = document.options.clips;
     if (asked.empty() && names.size() > 1) {
@@ -129,6 +127,16 @@ std::vector<std::size_t> choose_clips(const GltfDocument& document) {
         const std::size_t clip =
             find_named(text, names, "--clip", "animations of " + document.base.file);
         if (std::find(clips.begin(), clips.end(), clip) == clips.end()) clips.push_back(clip);
+    }
+    return clips;
+}
+
+}  // namespace
+
+std::vector<std::size_t> choose_clips(const GltfDocument& document) {
+    const std::vector<std::size_t> clips = asked_clips(document);
+    for (const auto& [clip, why] : document.broken_animations) {
+        if (std::ranges::count(clips, clip) > 0) throw Error(why);
     }
     warn_of_overlaps(document, clips);
     return clips;
@@ -163,6 +171,8 @@ std::vector<Clip> list_clips(const GltfDocument& document) {
     std::vector<Clip> clips;
     for (const tinygltf::Animation& animation : document.model.animations) {
         Clip clip{animation.name};
+        const auto broken = document.broken_animations.find(clips.size());
+        if (broken != document.broken_animations.end()) clip.broken = broken->second;
         clip.plays = std::ranges::count(document.clips, clips.size()) > 0;
         try {
             clip.length = length_of(document, animation);

@@ -11,6 +11,7 @@
 #include "host/scene/gltf/choices.h"
 #include "host/scene/gltf/extensions.h"
 #include "host/scene/gltf/json/parse_model.h"
+#include "host/scene/gltf/json/used_parts.h"
 #include "host/scene/gltf/mesh/meshopt.h"
 
 namespace kilolux {
@@ -58,12 +59,14 @@ std::optional<ByteSpan> read_buffer(GltfDocument& document, const json& buffer, 
     return bytes.first(length);
 }
 
-// Takes the buffers out of the JSON, which has `total` bytes.
-void read_buffers(GltfDocument& document, json& root, const GltfText& text, std::uint64_t total) {
+// Takes the buffers out of the JSON, which has `total` bytes, and reads those that are used.
+void read_buffers(GltfDocument& document, json& root, const std::vector<bool>& used,
+                  const GltfText& text, std::uint64_t total) {
     if (root.contains("buffers")) {
         json& buffers = root.at("buffers");
         for (std::size_t i = 0; i < buffers.size(); ++i) {
-            document.buffers.push_back(read_buffer(document, buffers[i], i, text));
+            document.buffers.emplace_back();
+            if (used[i]) document.buffers.back() = read_buffer(document, buffers[i], i, text);
             buffers[i] = nullptr;
             total += document.buffers.back().value_or(ByteSpan{}).size();
         }
@@ -83,9 +86,11 @@ ByteSpan view_bytes(const GltfDocument& document, std::size_t index) {
     return buffer.subspan(view.byteOffset, view.byteLength);
 }
 
-void resolve_views(GltfDocument& document) {
+void resolve_views(GltfDocument& document, const std::vector<bool>& used) {
     for (std::size_t i = 0; i < document.model.bufferViews.size(); ++i) {
-        if (is_meshopt_compressed(document, i)) {
+        if (!used[i]) {
+            document.views.emplace_back();
+        } else if (is_meshopt_compressed(document, i)) {
             document.owned.push_back(decode_meshopt_view(document, i));
             document.views.emplace_back(document.owned.back());
         } else {
@@ -154,7 +159,8 @@ GltfDocument load_gltf_document(const std::filesystem::path& file, const LoadOpt
     document.data = std::move(surveyed.data);
     const std::uint64_t parsed_bytes = surveyed.parsed_bytes;
     document.budget->charge_memory(parsed_bytes, document.base.file + ": JSON");
-    json root = parse_gltf_json(surveyed, document.base.file);
+    auto [root, broken_animations] = parse_gltf_json(surveyed, document.base.file);
+    document.broken_animations = std::move(broken_animations);
     document.budget->release_memory(surveyed.short_text.size());
     surveyed = {};
     if (text.has_binary || !document.data.empty()) {
@@ -163,12 +169,13 @@ GltfDocument load_gltf_document(const std::filesystem::path& file, const LoadOpt
         document.budget->release_memory(text.file.size());
         text = {};
     }
-    read_buffers(document, root, text, json_bytes);
+    const UsedParts used = used_parts(root);
+    read_buffers(document, root, used.buffers, text, json_bytes);
     parse_model(document, std::move(root), parsed_bytes);
     check_extensions(document);
     apply_variant(document);
     document.clips = choose_clips(document);
-    resolve_views(document);
+    resolve_views(document, used.views);
     return document;
 }
 

@@ -34,11 +34,12 @@ struct GltfDocument {
     tinygltf::Model model;
     std::vector<nlohmann::json> materials;
     std::vector<nlohmann::json> lights;            // of KHR_lights_punctual
-    std::vector<std::optional<ByteSpan>> buffers;  // none: a placeholder without data
+    std::vector<std::optional<ByteSpan>> buffers;  // none: a placeholder without data, or not used
     std::vector<ByteSpan> views;                   // one per buffer view, decompressed
     std::vector<Bytes> owned;                      // what buffers, views and data point into
     std::vector<DataUri> data;                     // the JSON's long data URIs
     std::vector<std::size_t> clips;                // animations that play, first one first
+    std::map<std::size_t, std::string> broken_animations;  // why, by index; empty in `model`
     std::unique_ptr<LoadBudget> budget;
     // Key times that apply_animations() has read, by accessor.
     mutable std::map<int, std::vector<float>> key_times;

@@ -9,14 +9,26 @@
 namespace kilolux {
 namespace {
 
-// Beside those of the table of materials. The last six are metadata.
+// Beside those of the table of materials.
 constexpr auto kRead = std::to_array<std::string_view>(
     {"KHR_lights_punctual", "KHR_texture_transform", "KHR_mesh_quantization",
      "KHR_materials_emissive_strength", "KHR_materials_unlit",
      "KHR_materials_pbrSpecularGlossiness", "KHR_materials_variants", "EXT_mesh_gpu_instancing",
-     "EXT_meshopt_compression", "KHR_draco_mesh_compression", "EXT_texture_webp", "EXT_lights_ies",
-     "KHR_xmp_json_ld", "KHR_xmp", "EXT_structural_metadata", "EXT_feature_metadata",
-     "EXT_mesh_features", "EXT_instance_features"});
+     "EXT_meshopt_compression", "KHR_draco_mesh_compression", "EXT_texture_webp",
+     "EXT_lights_ies"});
+
+// What no still picture shows: metadata, sound, physics, what a user may point at.
+constexpr auto kUnseen =
+    std::to_array<std::string_view>({"KHR_xmp_json_ld",         "KHR_xmp",
+                                     "EXT_structural_metadata", "EXT_feature_metadata",
+                                     "EXT_mesh_features",       "EXT_instance_features",
+                                     "EXT_mesh_manifold",       "KHR_node_hoverability",
+                                     "KHR_node_selectability",  "KHR_audio",
+                                     "KHR_audio_emitter",       "KHR_physics_rigid_bodies",
+                                     "KHR_implicit_shapes",     "AGI_stk_metadata",
+                                     "GODOT_single_root",       "MPEG_media",
+                                     "MPEG_audio_spatial",      "OMI_collider",
+                                     "OMI_physics_body",        "OMI_physics_shape"});
 
 constexpr std::array kLeftOut = {
     LeftOutExtension{"KHR_animation_pointer", "what it animates stands still"},
@@ -50,6 +62,7 @@ bool names_extension(const std::array<Row, N>& rows, const std::string& name) {
 
 bool is_read(const std::string& name) {
     return std::ranges::count(kRead, std::string_view(name)) > 0 ||
+           std::ranges::count(kUnseen, std::string_view(name)) > 0 ||
            names_extension(kMaterialMaps, name) || names_extension(kMaterialFactors, name);
 }
 

@@ -15,6 +15,7 @@
 #include "host/base/formats/srgb.h"
 #include "host/base/system/memory.h"
 #include "host/images/images.h"
+#include "host/scene/lights/radiance_header.h"
 
 namespace kilolux {
 namespace {
@@ -127,7 +128,8 @@ glm::dmat3 rec709_from(std::span<const float> chromaticities) {
 }
 
 // Integers are encoded in sRGB; a file's own primaries become Rec. 709's.
-void make_linear_rec709(const ImageLayout& image, std::vector<glm::vec3>& rows) {
+void make_linear_rec709(const ImageLayout& image, const RadianceHeader& header,
+                        std::vector<glm::vec3>& rows) {
     const SampleType type = image.channels.front().type;
     if (type == SampleType::uint8 || type == SampleType::uint16) {
         for (glm::vec3& c : rows) {
@@ -136,9 +138,13 @@ void make_linear_rec709(const ImageLayout& image, std::vector<glm::vec3>& rows) 
             }
         }
     }
-    if (image.chromaticities.empty()) return;
-    const glm::dmat3 matrix = rec709_from(image.chromaticities);
-    for (glm::vec3& c : rows) c = glm::max(glm::vec3(matrix * glm::dvec3(c)), 0.0f);
+    const std::vector<float>& primaries =
+        header.chromaticities.empty() ? image.chromaticities : header.chromaticities;
+    if (primaries.empty() && header.divisor == glm::dvec3(1.0)) return;
+    const glm::dmat3 matrix = primaries.empty() ? glm::dmat3(1.0) : rec709_from(primaries);
+    for (glm::vec3& c : rows) {
+        c = glm::max(glm::vec3(matrix * (glm::dvec3(c) / header.divisor)), 0.0f);
+    }
 }
 
 }  // namespace
@@ -204,7 +210,7 @@ Environment read_environment(const std::filesystem::path& file, std::uint64_t ma
         throw Error(fmt::format("{}: pixel {},{} is {},{},{}, must be finite and >= 0",
                                 file.string(), i % width, i / width, c.x, c.y, c.z));
     }
-    make_linear_rec709(image, out.rows);
+    make_linear_rec709(image, read_radiance_header(file), out.rows);
     return out;
 }
 

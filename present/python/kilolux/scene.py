@@ -22,7 +22,7 @@ class Lights:
                Rec. 709. Of three lights say [3, 1] for values and [1, 3] for one colour.
     range      [n] or one value, metres: beyond it a light is exactly 0; 0: from the intensity
     direction  [n, 3] or one row: the way the light travels (spot, directional); any length but 0
-    inner_cone, outer_cone  [n] or one value: half angles of spot lights, radians
+    inner_cone, outer_cone  [n] or one value: half angles of spot lights, radians, at most pi / 2
     kind       "point", "spot" or "directional"
 
     Arrays are read when the lights are given to Renderer(), change() or light(). Lights that cannot

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "host/base/text.h"
+#include "host/picture/listed_lights.h"
 #include "present/window/panel/panel.h"
 
 namespace kilolux {
@@ -110,7 +111,7 @@ std::string lights_text(const FrameStats& s) {
 
 void count_lines(const FrameStats& s) {
     fact_line("Lights", lights_text(s));
-    if (s.evaluations_per_pixel >= 0.0) {
+    if (lists_lights(s) && s.evaluations_per_pixel >= 0.0) {
         std::string text = "k " + fixed(s.evaluations_per_pixel, 1) + " evaluated";
         if (s.useful_evaluations_per_pixel >= 0.0) {
             text += ", k* " + fixed(s.useful_evaluations_per_pixel, 1) + " useful";

@@ -73,6 +73,12 @@ TEST(Render, SaysThatLinearLightIsNotExposed) {
                 << exposure << " " << result.err;
         }
     }
+    const ChildResult more = run_kilolux(
+        small_render(folder / "a.exr", {"--exposure", "1", "--tonemap", "aces", "--bloom", "0.5"}));
+    EXPECT_TRUE(contains(more.err,
+                         "a.exr: holds linear light, which --exposure and --tonemap and --bloom do "
+                         "not change"))
+        << more.err;
 }
 
 TEST(Render, AutomaticSamplesAreTold) {

@@ -231,12 +231,57 @@ TEST(LoadSceneReports, MemoryThatIsFreedIsNotCharged) {
 
 TEST(LoadSceneReports, MetadataIsNothingThatAPictureLacks) {
     GltfBuilder file = triangle_file();
-    file.root["extensionsUsed"] = {"EXT_structural_metadata", "EXT_mesh_features",
-                                   "EXT_instance_features", "KHR_xmp_json_ld"};
+    file.root["extensionsUsed"] = {"EXT_structural_metadata",
+                                   "EXT_mesh_features",
+                                   "EXT_instance_features",
+                                   "KHR_xmp_json_ld",
+                                   "EXT_mesh_manifold",
+                                   "KHR_node_hoverability",
+                                   "KHR_node_selectability",
+                                   "AGI_stk_metadata",
+                                   "GODOT_single_root",
+                                   "KHR_audio",
+                                   "MPEG_media",
+                                   "OMI_collider",
+                                   "KHR_physics_rigid_bodies"};
     file.root["extensionsRequired"] = file.root["extensionsUsed"];
     LoadOptions options;
     options.strict = true;
     EXPECT_EQ(load(file, options).meshes.size(), 1u);
+}
+
+TEST(LoadSceneReports, BuffersAndViewsThatNothingReadsMayBeBroken) {
+    GltfBuilder file = triangle_file();
+    file.root["buffers"] = {{{"byteLength", 72}}, {{"byteLength", 8}, {"uri", "gone.bin"}}};
+    const TempFolder folder;
+    const auto path = folder.path() / "scene.glb";
+    write_file(path, file.glb());
+    EXPECT_EQ(load_error(path), "");
+    file.root["bufferViews"].push_back({{"buffer", 1}, {"byteLength", 8}});
+    write_file(path, file.glb());
+    EXPECT_EQ(load_error(path), "");
+    file.root["accessors"][1]["bufferView"] = file.root["bufferViews"].size() - 1;
+    write_file(path, file.glb());
+    EXPECT_TRUE(contains(load_error(path), "buffers[1]: file 'gone.bin': no such file"))
+        << load_error(path);
+}
+
+TEST(LoadSceneReports, AnAnimationThatDoesNotPlayMayBreakRules) {
+    GltfBuilder file = triangle_file();
+    for (const json& sampler : {json{{"input", 99}, {"output", 0}},
+                                json{{"input", 0}, {"output", 0}, {"interpolation", "FOO"}}}) {
+        file.root["animations"] = {
+            {{"name", "bad"},
+             {"samplers", {sampler}},
+             {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
+        EXPECT_TRUE(contains(load_error(file), "animations[0].samplers[0].in"));
+        LoadOptions options;
+        options.clips = {"none"};
+        const Scene scene = load(file, options);
+        ASSERT_EQ(scene.clips.size(), 1u);
+        EXPECT_EQ(scene.clips[0].name, "bad");
+        EXPECT_TRUE(contains(scene.clips[0].broken, "animations[0].samplers[0].in"));
+    }
 }
 
 }  // namespace
