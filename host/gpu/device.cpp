@@ -9,6 +9,7 @@
 #include <mutex>
 
 #include "host/base/error.h"
+#include "host/base/system/memory.h"
 #include "host/base/text.h"
 #include "host/gpu/pocl_cache.h"
 #include "host/gpu/program.h"
