@@ -11,7 +11,6 @@ namespace py = pybind11;
 PYBIND11_MODULE(_native, module) {
     using namespace kilolux;
     static const py::exception<Error> error(module, "Error", PyExc_RuntimeError);
-    // NOLINTNEXTLINE(performance-unnecessary-value-param): pybind11 asks for this signature.
     py::register_exception_translator([](std::exception_ptr thrown) {
         try {
             if (thrown) std::rethrow_exception(thrown);

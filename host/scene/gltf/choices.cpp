@@ -134,7 +134,7 @@ std::vector<std::size_t> asked_clips(const GltfDocument& document) {
 }  // namespace
 
 std::vector<std::size_t> choose_clips(const GltfDocument& document) {
-    const std::vector<std::size_t> clips = asked_clips(document);
+    std::vector<std::size_t> clips = asked_clips(document);
     for (const auto& [clip, why] : document.broken_animations) {
         if (std::ranges::count(clips, clip) > 0) throw Error(why);
     }

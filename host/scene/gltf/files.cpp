@@ -188,7 +188,7 @@ bool links_out_of_folder(const fs::path& folder, const fs::path& relative) {
 
 fs::path relative_path_of(const fs::path& folder, const std::string& uri) {
     std::error_code ignored;
-    const fs::path undecoded = fs::path(uri).lexically_normal();
+    fs::path undecoded = fs::path(uri).lexically_normal();
     if (!leaves_folder(undecoded) && fs::exists(folder / undecoded, ignored)) return undecoded;
     return fs::path(percent_decoded(uri)).lexically_normal();
 }

@@ -144,7 +144,7 @@ glm::dvec3 mean_around(const Environment& e, const std::vector<Texel>& texels, c
 }
 
 Environment filtered(const Environment& environment, const LevelPlan& plan) {
-    const Environment source = shrunk(environment, plan.source_width);
+    Environment source = shrunk(environment, plan.source_width);
     if (plan.roughness == 0.0) return source;
     const std::vector<Texel> texels = texels_of(source);
     const Lobe lobe(plan.roughness);

@@ -15,7 +15,7 @@ MaskTiles::MaskTiles(const Gpu& gpu, const Tuning& tuning)
 
 DeviceArray<uint> MaskTiles::enqueue(const TileCounts& done, const View& view,
                                      const DeviceArray<uint>& ids, StageTimer& timer) {
-    const auto out = masked_.reserve(std::size_t{view.stride} * view.height);
+    auto out = masked_.reserve(std::size_t{view.stride} * view.height);
     kernel_.enqueue(kernel_.pixel_items(view, tuning_.shade_rows), timer, view, done.fixed, ids,
                     out);
     return out;

@@ -31,7 +31,7 @@ void SumSamples::add(const Radiance& radiance, StageTimer& timer) {
 
 Radiance SumSamples::mean(StageTimer& timer) {
     assert(count_ > 0);
-    const Radiance out{mean_.reserve(floats_of(view_)), view_};
+    Radiance out{mean_.reserve(floats_of(view_)), view_};
     mean_kernel_.enqueue(work_size(), timer, floats_of(view_), static_cast<float>(count_),
                          sums_.get(), out.planes);
     return out;

@@ -13,8 +13,7 @@ DeviceArray<float> ShadowOrigins::enqueue(const DeviceArray<uint>& ids, const Su
                                           const GBuffer& gbuffer, const ShadowCasters& casters,
                                           const ShadowView& shadow, StageTimer& timer) {
     const View& view = gbuffer.view;
-    const DeviceArray<float> out =
-        origins_.reserve(kPlanes * std::size_t{view.stride} * view.height);
+    DeviceArray<float> out = origins_.reserve(kPlanes * std::size_t{view.stride} * view.height);
     kernel_.enqueue(kernel_.pixel_items(view, tuning_.shade_rows), timer, ids, gbuffer, shadow,
                     scene, casters.triangles, out);
     return out;

@@ -22,7 +22,7 @@ CountTexels::CountTexels(const Gpu& gpu, const Tuning& tuning, const SurfaceFeat
 
 DeviceArray<uint> CountTexels::enqueue(const DeviceArray<uint>& ids, const SurfaceBuffers& scene,
                                        const View& view, StageTimer& timer) {
-    const DeviceArray<uint> counts = counts_.reserve(std::size_t{view.stride} * view.height);
+    DeviceArray<uint> counts = counts_.reserve(std::size_t{view.stride} * view.height);
     kernel_.enqueue(kernel_.pixel_items(view, tuning_.shade_rows), timer, ids, view, scene, counts);
     return counts;
 }

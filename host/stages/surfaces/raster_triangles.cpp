@@ -34,7 +34,7 @@ RasterTriangles::RasterTriangles(const Gpu& gpu, const Tuning& tuning,
 
 DeviceArray<uint> RasterTriangles::enqueue(const SurfaceBuffers& scene, const TriangleLists& lists,
                                            const View& view, StageTimer& timer) {
-    const DeviceArray<uint> ids = ids_.reserve(std::size_t{view.stride} * view.height);
+    DeviceArray<uint> ids = ids_.reserve(std::size_t{view.stride} * view.height);
     kernel_.enqueue(groups(lists.tile_count, tuning_.raster_group), timer, view, scene, lists, ids);
     return ids;
 }

@@ -41,7 +41,7 @@ CutLightTree::CutLightTree(const Gpu& gpu, const Tuning& tuning, const KernelFea
 
 RefinedLists CutLightTree::enqueue(const CutInput& input, StageTimer& timer) {
     const ActiveClusters& clusters = input.clusters;
-    const RefinedLists out{lists_.entries<std::byte>(), lists_.capacity()};
+    RefinedLists out{lists_.entries<std::byte>(), lists_.capacity()};
     cone_rows_.reserve(clusters.capacity * kConeBytes);
     const TreeCut cut{input, cone_rows_.array<std::byte>(clusters.capacity * kConeBytes), share_};
     cones_.enqueue(items(clusters.tile_count, tuning_.light_group), timer, input.gbuffer, clusters,

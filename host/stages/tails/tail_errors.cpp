@@ -38,7 +38,7 @@ DeviceArray<float> TailErrors::bound(const LitPixels& lit, const DeviceArray<Lig
         moment_rows_.reserve(kMomentRows * lit.clusters.grid.cluster_count);
     moments_->enqueue(moments_->vector_items(boxes.grid.cluster_count, 1), timer, own, lit.lights,
                       boxes, lit.clusters.occupied, rows);
-    const DeviceArray<float> out = bounds_.reserve(std::size_t{3} * view.stride * view.height);
+    DeviceArray<float> out = bounds_.reserve(std::size_t{3} * view.stride * view.height);
     bound_->enqueue(bound_->pixel_items(view, tuning_.shade_rows), timer, lit.gbuffer, boxes.grid,
                     rows, out);
     return out;
@@ -49,7 +49,7 @@ DeviceArray<float> TailErrors::tree_bound(const LitPixels& lit, StageTimer& time
     if (!tree_bound_) {
         tree_bound_ = kernel_of(gpu_.with_lanes(1), "tree_bound", tail_options(features_));
     }
-    const DeviceArray<float> out = bounds_.reserve(std::size_t{3} * view.stride * view.height);
+    DeviceArray<float> out = bounds_.reserve(std::size_t{3} * view.stride * view.height);
     tree_bound_->enqueue(tree_bound_->pixel_items(view, tuning_.shade_rows), timer, lit, out);
     return out;
 }
@@ -61,7 +61,7 @@ DeviceArray<float> TailErrors::variance(const LitPixels& lit, const ShadowWords&
     const View& view = lit.gbuffer.view;
     const std::size_t pixels = std::size_t{view.stride} * view.height;
     if (!variance_) variance_ = kernel_of(gpu_, "tail_variance", tail_options(features_));
-    const DeviceArray<float> out = variances_.reserve(pixels);
+    DeviceArray<float> out = variances_.reserve(pixels);
     if (features_.sampled_shadows) {
         gpu_.queue.enqueueCopyBuffer(shadow_variance, out, 0, 0, pixels * sizeof(float));
     } else {
