@@ -18,7 +18,7 @@ constexpr std::size_t kLongUri = 4096;     // [character]; shorter ones stay in 
 constexpr std::size_t kNameLength = 80;    // what messages show of a URI
 constexpr std::size_t kLongestHead = 256;  // of a data URI, up to its comma
 
-constexpr std::array<std::int8_t, 256> kBase64Values = [] {
+constexpr std::array<std::int8_t, 256> base64_values() {
     constexpr std::string_view kDigits =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::array<std::int8_t, 256> values{};
@@ -27,7 +27,9 @@ constexpr std::array<std::int8_t, 256> kBase64Values = [] {
         values[static_cast<unsigned char>(kDigits[i])] = static_cast<std::int8_t>(i);
     }
     return values;
-}();
+}
+
+constexpr std::array<std::int8_t, 256> kBase64Values = base64_values();
 
 int base64_value(char digit) { return kBase64Values[static_cast<unsigned char>(digit)]; }
 

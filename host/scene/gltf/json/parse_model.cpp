@@ -140,7 +140,8 @@ class ModelParser {
                 cost.model -= sizeof(tinygltf::Node);
                 some.push_back(std::move(nodes[end]));
             }
-            for (tinygltf::Node& node : convert(std::move(part), cost).nodes) {
+            tinygltf::Model made = convert(std::move(part), cost);
+            for (tinygltf::Node& node : made.nodes) {
                 document_.model.nodes.push_back(std::move(node));
             }
         }
