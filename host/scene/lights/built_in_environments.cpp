@@ -156,17 +156,17 @@ void add_sun(Environment& sky) {
 Environment studio_environment() { return painted_environment(512, studio_radiance); }
 
 Environment sky_environment() {
-    constexpr int kRows = 1024;        // the sun is three pixels wide
+    constexpr int kSkyRows = 1024;     // the sun is three pixels wide
     constexpr int kMeasuredRows = 64;  // the sky without it is smooth
     const glm::dvec3 measured = ground_illuminance(painted_environment(kMeasuredRows, clear_sky));
     const double scale = kSkyIlluminance / luminance(measured);
     const glm::dvec3 sun = kSunIlluminance * std::sin(kSunElevation) * kSunColor;
-    const glm::dvec3 below = kGroundAlbedo / std::numbers::pi * (scale * measured + sun);
-    Environment out = painted_environment(kRows, [&](const glm::dvec3& d) {
+    const glm::dvec3 ground = kGroundAlbedo / std::numbers::pi * (scale * measured + sun);
+    Environment out = painted_environment(kSkyRows, [&](const glm::dvec3& d) {
         if (d.y >= 0.0) return scale * clear_sky(d);
-        // Haze: the horizon's sky turns into below within three degrees.
+        // Haze: the horizon's sky turns into ground within three degrees.
         const glm::dvec3 horizon = scale * clear_sky(glm::normalize(glm::dvec3(d.x, 0.0, d.z)));
-        return glm::mix(horizon, below, glm::smoothstep(0.0, -0.05, d.y));
+        return glm::mix(horizon, ground, glm::smoothstep(0.0, -0.05, d.y));
     });
     add_sun(out);
     return out;
