@@ -76,6 +76,7 @@ TEST_F(RenderWorkerTest, GoesOnAfterAPictureThatCannotBeMade) {
 // estimate the time of the whole.
 TEST_F(RenderWorkerTest, APictureInPartsIsThatOfTheRenderer) {
     settings_.renderer = RendererKind::forward;
+    settings_.lights.count = 5000;  // a pass of fewer may be drawn at once
     RenderWorker worker = this->worker();
     PictureRequest parts = request();
     parts.progress = std::make_shared<PictureProgress>();
