@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/exit_code.h"
 
+#include <signal.h>
+
 #include <CLI/Error.hpp>
 #include <cstdio>
 #include <cstdlib>
@@ -14,8 +16,11 @@
 namespace kilolux {
 namespace {
 
-// 128 + SIGINT, as shells count; SIGTERM ends with the same.
-constexpr int kInterrupted = 130;
+// 128 and the signal's number, as shells count.
+int interrupted_code() {
+    const int number = ending_signal();
+    return 128 + (number != 0 ? number : SIGINT);
+}
 
 int fail(int code, const char* message) {
     std::fprintf(stderr, "kilolux: %s\n", message);
@@ -23,7 +28,7 @@ int fail(int code, const char* message) {
 }
 
 int fail(const std::exception_ptr& failure) {
-    if (interrupt_requested()) return fail(kInterrupted, Interrupted().what());
+    if (ending_signal() != 0) return fail(interrupted_code(), Interrupted().what());
     try {
         std::rethrow_exception(failure);
     } catch (const UsageError& error) {
@@ -31,7 +36,7 @@ int fail(const std::exception_ptr& failure) {
     } catch (const CLI::ParseError& error) {
         return fail(2, error.what());
     } catch (const Interrupted& error) {
-        return fail(kInterrupted, error.what());
+        return fail(interrupted_code(), error.what());
     } catch (const ComparisonFailed& error) {
         return fail(3, error.what());
     } catch (const std::bad_alloc&) {

@@ -7,7 +7,7 @@
 namespace kilolux {
 
 /// Runs `work`. Returns 0, or prints the exception, of any type, and returns 1 (runtime error), 2
-/// (command line), 3 (comparison failed) or 130 (interrupted).
+/// (command line), 3 (comparison failed) or 128 + N (interrupted by signal N).
 int exit_code_of(const std::function<void()>& work);
 
 /// Makes uncaught exceptions, such as in a worker thread, end the process as exit_code_of() would

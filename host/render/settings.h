@@ -57,7 +57,8 @@ struct GridSettings {
     bool operator==(const GridSettings&) const = default;
 };
 
-/// How shading kernels compute: as OpenCL C demands it, with -cl-fast-relaxed-math, or with the
+/// How shading kernels compute: as OpenCL C demands it, with -cl-fast-relaxed-math, which lets
+/// lists change the order of sums, or with the
 /// device's native square roots and reciprocals.
 enum class MathMode { exact, fast_relaxed, native };
 

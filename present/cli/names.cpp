@@ -112,6 +112,16 @@ const Choices& choices_of(SeenFrom) {
     return choices;
 }
 
+const Choices& choices_of(ProgressKind) {
+    static const Choices choices = {
+        {"auto", "a bar on a terminal, else plain"},
+        {"plain", "a line on stderr every 10 s at least"},
+        {"openjd", "\"openjd_progress: 41.5\" on stdout, for Open Job Description"},
+        {"alf", "\"ALF_PROGRESS 41%\" on stdout, for Tractor and others"},
+        {"none", "nothing; auto with --quiet"}};
+    return choices;
+}
+
 const Choices& choices_of(MathMode) {
     static const Choices choices = {{"exact", "as OpenCL C demands"},
                                     {"fast-relaxed", "with -cl-fast-relaxed-math"},

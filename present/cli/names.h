@@ -11,6 +11,7 @@
 #include "host/render/settings.h"
 #include "host/scene/framing.h"
 #include "host/scene/lights/rig.h"
+#include "present/cli/progress.h"
 
 namespace kilolux {
 
@@ -32,6 +33,7 @@ const Choices& choices_of(ToneCurve);
 const Choices& choices_of(Rig);
 const Choices& choices_of(Fit);
 const Choices& choices_of(SeenFrom);
+const Choices& choices_of(ProgressKind);
 const Choices& choices_of(MathMode);
 const Choices& choices_of(LightColors);
 const Choices& choices_of(ViewKind);

@@ -9,6 +9,7 @@
 #include "host/base/error.h"
 #include "host/base/formats/srgb.h"
 #include "host/base/suggest.h"
+#include "present/cli/array_task.h"
 
 namespace kilolux {
 namespace {
@@ -68,6 +69,31 @@ std::optional<std::pair<int, int>> int_pair(std::string_view text, char separato
     const auto second = signed_number_of<int>(parts[1]);
     if (!first || !second || *first < 0 || *second < 0) return std::nullopt;
     return std::pair{*first, *second};
+}
+
+// "7", "A:B", "A-B" or "A-BxSTEP".
+std::optional<FrameRange> frame_range(std::string_view text) {
+    FrameRange out;
+    const std::size_t step = text.find('x');
+    if (step != std::string_view::npos) {
+        const auto number = signed_number_of<int>(text.substr(step + 1));
+        if (!number || *number < 1) return std::nullopt;
+        out.step = *number;
+        text = text.substr(0, step);
+    } else if (const auto frame = signed_number_of<int>(text); frame && *frame >= 0) {
+        return FrameRange{*frame, *frame};
+    }
+    const auto ends = int_pair(text, text.find(':') == std::string_view::npos ? '-' : ':');
+    if (!ends || ends->first > ends->second) return std::nullopt;
+    out.first = ends->first;
+    out.last = ends->second - (ends->second - ends->first) % out.step;
+    return out;
+}
+
+std::string text_of_range(const FrameRange& range) {
+    if (range.size() == 1) return fmt::to_string(range.first);
+    const std::string ends = fmt::format("{}-{}", range.first, range.last);
+    return range.step == 1 ? ends : fmt::format("{}x{}", ends, range.step);
 }
 
 }  // namespace
@@ -187,18 +213,34 @@ Box parse_box(const std::string& option, std::string_view text) {
     return box;
 }
 
-FrameRange parse_frames(const std::string& option, std::string_view text) {
-    const auto ends = int_pair(text, ':');
-    if (!ends || ends->first > ends->second) {
-        refuse(option, text, "A:B, the first and the last frame, 0 <= A <= B");
+FrameList parse_frames(const std::string& option, std::string_view text) {
+    std::vector<FrameRange> ranges;
+    for (const std::string_view part : split(text, ',')) {
+        const auto range = frame_range(part);
+        if (!range) {
+            refuse(option, text,
+                   "A:B, the first and the last frame, 0 <= A <= B, or a list of frames and of "
+                   "ranges A-B and A-BxSTEP: 1-99x2,105");
+        }
+        ranges.push_back(*range);
     }
-    return {ends->first, ends->second};
+    try {
+        return FrameList(std::move(ranges));
+    } catch (const Error& error) {
+        refuse(option, text, std::string("in ascending order: ") + error.what());
+    }
 }
 
 Shard parse_shard(const std::string& option, std::string_view text) {
+    if (text == "auto") return shard_of_task(option);
+    if (text.starts_with("auto/")) {
+        const auto count = signed_number_of<int>(text.substr(5));
+        if (count && *count > 0) return shard_of_task(option, *count);
+    }
     const auto parts = int_pair(text, '/');
     if (!parts || parts->first >= parts->second) {
-        refuse(option, text, "I/N, shard I of N, 0 <= I < N (the first of four is 0/4)");
+        refuse(option, text,
+               "I/N, shard I of N, 0 <= I < N (the first of four is 0/4), nor auto or auto/N");
     }
     return {parts->first, parts->second};
 }
@@ -257,8 +299,13 @@ std::string text_of(const BackgroundChoice& choice) {
     };
     return fmt::format("#{:02x}{:02x}{:02x}", code(0), code(1), code(2));
 }
-std::string text_of(const FrameRange& frames) {
-    return fmt::format("{}:{}", frames.first, frames.last);
+std::string text_of(const FrameList& frames) {
+    if (frames.ranges().size() == 1 && frames.ranges().front().step == 1)
+        return fmt::format("{}:{}", frames.first(), frames.last());
+    std::string out;
+    for (const FrameRange& range : frames.ranges())
+        out += (out.empty() ? "" : ",") + text_of_range(range);
+    return out;
 }
 std::string text_of(const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); }
 std::string text_of(const Box& box) {

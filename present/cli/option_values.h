@@ -106,10 +106,10 @@ LineWidth parse_line_width(const std::string& option, std::string_view text);
 /// Texts separated by commas, none of them empty.
 std::vector<std::string> parse_list(const std::string& option, std::string_view text);
 
-/// Frames "A:B", A <= B.
-FrameRange parse_frames(const std::string& option, std::string_view text);
+/// Frames "A:B", A <= B, or a list of frames and ranges in ascending order: "1-99x2,105".
+FrameList parse_frames(const std::string& option, std::string_view text);
 
-/// Shard "I/N", 0 <= I < N.
+/// Shard "I/N", 0 <= I < N; "auto" and "auto/N": see shard_of_task().
 Shard parse_shard(const std::string& option, std::string_view text);
 
 /// The index of a name in `names`; the message lists them and the nearest.
@@ -130,7 +130,7 @@ requires std::is_arithmetic_v<Number> std::string text_of(Number value) {
 std::string text_of(const glm::dvec3& value);
 std::string text_of(const Box& value);
 std::string text_of(const BackgroundChoice& value);
-std::string text_of(const FrameRange& frames);
+std::string text_of(const FrameList& frames);
 std::string text_of(const Shard& shard);
 inline std::string text_of(const std::string& value) { return value; }
 template <typename T>

@@ -14,6 +14,7 @@
 #include "host/scene/lights/rig.h"
 #include "present/cli/camera_choice.h"
 #include "present/cli/option_values.h"
+#include "present/cli/progress.h"
 #include "present/cli/sequence.h"
 #include "present/cli/setting.h"
 #include "present/image/display_picture.h"
@@ -46,8 +47,10 @@ struct SharedOptions {
     CameraChoice camera;
     double time = 0.0;        // [s]
     bool show_error = false;  // --show error: the picture's error against --reference
+    ProgressKind progress = ProgressKind::automatic;
     bool quiet = false;
     bool verbose = false;
+    ProgressKind shown_progress() const { return progress_kind(progress, quiet); }
     bool operator==(const SharedOptions&) const = default;
 };
 
@@ -56,7 +59,7 @@ struct OutputOptions {
     Encoding encoding;
     std::filesystem::path output;
     OcioOptions ocio;
-    std::optional<FrameRange> frames;
+    std::optional<FrameList> frames;
     double frames_per_second = 24.0;
     Shard shard;
     std::optional<double> turntable;    // [degree] over the frames

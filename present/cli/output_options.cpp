@@ -85,12 +85,17 @@ void visit_sequence(const SettingVisitor& f, OutputOptions& o) {
     // A picture of a sequence is that of its time, which its notes hold.
     const bool one_file = is_video(o.output);
     OptionBuilder(f, "Sequences")
-        .value({"--frames", "A:B", "", "Frames A to B; frame f is at --time + f / --fps",
+        .value({"--frames", "A:B", "",
+                "Frames A to B; also a list of frames and ranges such as 1-99x2,105. Frame f is at "
+                "--time + f / --fps",
                 one_file || o.turntable ? kPicture : kNeither},
                o.frames, parse_frames)
         .number({"--fps", "F", "", "Frames a second", one_file ? kPicture : kNeither},
                 o.frames_per_second, {0.0, 1e6, true})
-        .value({"--shard", "I/N", "0/1", "Only every N-th frame, from the I-th on, counted from 0"},
+        .value({"--shard", "I/N", "0/1",
+                "Only every N-th frame, from the I-th on, counted from 0; auto, auto/N: I, and N "
+                "if need be, by the variables of Slurm, Kubernetes, AWS Batch, Open MPI or GNU "
+                "parallel"},
                o.shard, parse_shard)
         .number({"--turntable", "DEGREES", "",
                  "The camera goes so far around the vertical axis through the scene's middle over "
@@ -220,6 +225,8 @@ void check_output_options(const SharedOptions& shared, const OutputOptions& opti
     check_sequence(options);
     check_motion(shared.camera, options);
     check_format(shared, options);
+    refuse_if(is_of_farm(shared.progress) && (options.stats == "-" || options.output == "-"),
+              "--progress: standard output is that of --stats or the video; name a file");
     const bool compares = !options.reference.empty();
     refuse_if(!compares && options.threshold, "--threshold: needs --reference FILE");
     refuse_if(compares && options.skip_existing,

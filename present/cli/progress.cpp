@@ -19,6 +19,10 @@ int terminal_columns() {
     return size.ws_col;
 }
 
+double share_of(std::size_t done, std::size_t total) {
+    return total == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(total);
+}
+
 }  // namespace
 
 std::string duration_text(double seconds) {
@@ -30,7 +34,7 @@ std::string duration_text(double seconds) {
 
 std::string progress_line(const std::string& label, std::size_t done, std::size_t total,
                           double elapsed_s, int width) {
-    const double share = total == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(total);
+    const double share = share_of(done, total);
     const std::string head = fmt::format("{} {}/{} ", label, done, total);
     std::string tail = fmt::format("{:3} %", static_cast<int>(share * 100.0));
     if (done > 0 && done < total) {
@@ -45,14 +49,35 @@ std::string progress_line(const std::string& label, std::size_t done, std::size_
     return fmt::format("{}[{:=<{}}{: <{}}] {}", head, "", filled, "", empty, tail);
 }
 
-Progress::Progress(std::string label, std::size_t total, bool shown, double line_s)
+ProgressKind progress_kind(ProgressKind asked, bool quiet) {
+    return quiet && asked == ProgressKind::automatic ? ProgressKind::none : asked;
+}
+
+ProgressKind progress_kind_of_part(ProgressKind kind) {
+    return is_of_farm(kind) ? ProgressKind::none : kind;
+}
+
+bool is_of_farm(ProgressKind kind) {
+    return kind == ProgressKind::openjd || kind == ProgressKind::alf;
+}
+
+std::string farm_line(ProgressKind kind, double share) {
+    const double percent = 100.0 * share;
+    if (kind == ProgressKind::openjd) return fmt::format("openjd_progress: {:.1f}", percent);
+    if (kind == ProgressKind::alf)
+        return fmt::format("ALF_PROGRESS {}%", static_cast<int>(percent));
+    return "";
+}
+
+Progress::Progress(std::string label, std::size_t total, ProgressKind kind, double line_s)
     : label_(std::move(label)),
       total_(total),
-      shown_(shown),
+      kind_(kind),
+      has_bar_(kind == ProgressKind::automatic && isatty(STDERR_FILENO) == 1),
       line_s_(line_s),
-      terminal_(isatty(STDERR_FILENO) == 1) {
+      next_line_s_(is_of_farm(kind) ? 0.0 : line_s) {
     draw();
-    if (!shown_ || terminal_) return;
+    if (kind_ == ProgressKind::none || has_bar_) return;
     lines_ = std::jthread([this](const std::stop_token& end) { draw_lines(end); });
 }
 
@@ -61,6 +86,7 @@ Progress::~Progress() { erase(); }
 void Progress::advance() {
     const std::scoped_lock lock(mutex_);
     ++done_;
+    if (is_of_farm(kind_)) next_line_s_ = 0.0;
     draw();
 }
 
@@ -76,23 +102,29 @@ void Progress::draw_lines(const std::stop_token& end) {
 }
 
 void Progress::erase() {
-    if (shown_ && terminal_) std::fputs("\r\x1b[K", stderr);
+    if (has_bar_) std::fputs("\r\x1b[K", stderr);
 }
 
 void Progress::draw() {
-    if (!shown_) return;
+    if (kind_ == ProgressKind::none) return;
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-    if (!terminal_) {
-        if (elapsed.count() < next_line_s_) return;
-        next_line_s_ = elapsed.count() + line_s_;
-        constexpr int kColumns = 79;
-        std::fprintf(stderr, "%s\n",
-                     progress_line(label_, done_, total_, elapsed.count(), kColumns).c_str());
+    if (has_bar_) return draw_bar(elapsed.count());
+    if (elapsed.count() < next_line_s_) return;
+    next_line_s_ = elapsed.count() + line_s_;
+    if (is_of_farm(kind_)) {
+        std::printf("%s\n", farm_line(kind_, share_of(done_, total_)).c_str());
+        std::fflush(stdout);
         return;
     }
+    constexpr int kColumns = 79;
+    std::fprintf(stderr, "%s\n",
+                 progress_line(label_, done_, total_, elapsed.count(), kColumns).c_str());
+}
+
+void Progress::draw_bar(double elapsed_s) const {
     // The last column stays free: writing it makes some terminals wrap.
     const std::string line =
-        progress_line(label_, done_, total_, elapsed.count(), terminal_columns() - 1);
+        progress_line(label_, done_, total_, elapsed_s, terminal_columns() - 1);
     std::fprintf(stderr, "\r\x1b[K%s", line.c_str());
     std::fflush(stderr);
 }

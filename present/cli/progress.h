@@ -19,12 +19,27 @@ std::string duration_text(double seconds);
 std::string progress_line(const std::string& label, std::size_t done, std::size_t total,
                           double elapsed_s, int width);
 
-/// A progress bar on stderr while stderr is a terminal, erased when it ends; otherwise a line every
-/// `line_s` seconds, also while one step takes longer.
+/// How progress is told: automatic is a bar on a terminal, else plain lines on stderr; OpenJD and
+/// Alfred are the lines that render farms read on stdout.
+enum class ProgressKind { automatic, plain, openjd, alf, none };
+
+/// The kind for a command with or without --quiet.
+ProgressKind progress_kind(ProgressKind asked, bool quiet);
+
+/// The kind for a part of a job: a farm reads that of the job alone.
+ProgressKind progress_kind_of_part(ProgressKind kind);
+
+/// Whether its lines go to standard output.
+bool is_of_farm(ProgressKind kind);
+
+/// The line for a farm, or "" where `kind` has none. `share`: 0 to 1.
+std::string farm_line(ProgressKind kind, double share);
+
+/// Tells how far a job is. Lines come at most once in `line_s` seconds, and as often while one step
+/// takes longer; a farm's lines at each step, too. A bar is erased when it ends.
 class Progress {
  public:
-    /// `shown` is false with --quiet.
-    Progress(std::string label, std::size_t total, bool shown, double line_s = 30.0);
+    Progress(std::string label, std::size_t total, ProgressKind kind, double line_s = 10.0);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -37,15 +52,16 @@ class Progress {
 
  private:
     void draw();
+    void draw_bar(double elapsed_s) const;
     void draw_lines(const std::stop_token& end);
 
     std::string label_;
     std::size_t done_ = 0;
     std::size_t total_;
-    bool shown_;
+    ProgressKind kind_;
+    bool has_bar_;
     double line_s_;
-    double next_line_s_ = line_s_;
-    bool terminal_;
+    double next_line_s_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     std::mutex mutex_;  // guards what `lines_` reads
     std::condition_variable_any ended_;

@@ -240,7 +240,8 @@ AnimatedScene open_animated_scene(const SharedOptions& options) {
     load.max_memory_bytes =
         settings.memory_shares > 1 ? memory_limit(settings) : settings.max_memory_bytes;
     return AnimatedScene(scene_file(options.scene), load, [&](std::size_t done, std::size_t total) {
-        if (!bar) bar.emplace("loading images", total, !options.quiet);
+        if (!bar)
+            bar.emplace("loading images", total, progress_kind_of_part(options.shown_progress()));
         if (done > 0) bar->advance();
     });
 }

@@ -3,18 +3,45 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
+#include <utility>
+
+#include "host/base/error.h"
 
 namespace kilolux {
 
-ShardFrames::ShardFrames(const FrameRange& range, const Shard& shard)
-    : first_(std::int64_t{range.first} + shard.index), step_(shard.count) {
-    size_ = first_ > range.last ? 0 : static_cast<std::size_t>((range.last - first_) / step_ + 1);
+std::size_t FrameRange::size() const {
+    return static_cast<std::size_t>((std::int64_t{last} - first) / step) + 1;
 }
 
-int ShardFrames::operator[](std::size_t i) const {
-    return static_cast<int>(first_ + static_cast<std::int64_t>(i) * step_);
+FrameList::FrameList(FrameRange range) : FrameList(std::vector{range}) {}
+
+FrameList::FrameList(std::vector<FrameRange> ranges) : ranges_(std::move(ranges)) {
+    std::size_t end = 0;
+    for (std::size_t i = 0; i < ranges_.size(); ++i) {
+        if (i > 0 && ranges_[i].first <= ranges_[i - 1].last) {
+            throw Error(
+                fmt::format("frame {} comes after {}", ranges_[i].first, ranges_[i - 1].last));
+        }
+        ends_.push_back(end += ranges_[i].size());
+    }
 }
+
+int FrameList::operator[](std::size_t i) const {
+    const auto range =
+        static_cast<std::size_t>(std::upper_bound(ends_.begin(), ends_.end(), i) - ends_.begin());
+    const std::size_t before = range == 0 ? 0 : ends_[range - 1];
+    return ranges_[range].first + static_cast<int>(i - before) * ranges_[range].step;
+}
+
+ShardFrames::ShardFrames(FrameList frames, const Shard& shard)
+    : frames_(std::move(frames)),
+      index_(static_cast<std::size_t>(shard.index)),
+      count_(static_cast<std::size_t>(shard.count)),
+      size_(index_ < frames_.size() ? (frames_.size() - 1 - index_) / count_ + 1 : 0) {}
+
+int ShardFrames::operator[](std::size_t i) const { return frames_[index_ + i * count_]; }
 
 bool has_frame_pattern(const std::filesystem::path& file) {
     return file.filename().string().find('#') != std::string::npos;

@@ -5,36 +5,63 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string_view>
+#include <vector>
 
 namespace kilolux {
 
-/// Frames first to last, both included.
+/// Frames first, first + step, ... up to last, which is one of them.
 struct FrameRange {
     int first = 0;
     int last = 0;
+    int step = 1;
+    std::size_t size() const;
     bool operator==(const FrameRange&) const = default;
+};
+
+/// Frames in ascending order. Counted, not stored.
+class FrameList {
+ public:
+    FrameList(FrameRange range);  // NOLINT: a range is a list
+
+    /// Throws Error "frame 7 comes after 9" unless the ranges, at least one, ascend.
+    explicit FrameList(std::vector<FrameRange> ranges);
+
+    const std::vector<FrameRange>& ranges() const { return ranges_; }
+    int first() const { return ranges_.front().first; }
+    int last() const { return ranges_.back().last; }
+    std::size_t size() const { return ends_.back(); }
+
+    /// 0 <= i < size().
+    int operator[](std::size_t i) const;
+    bool operator==(const FrameList&) const = default;
+
+ private:
+    std::vector<FrameRange> ranges_;
+    std::vector<std::size_t> ends_;  // frames up to each range's end
 };
 
 /// Part `index` of `count` of a sequence, so that any batch scheduler can spread it.
 struct Shard {
     int index = 0;  // 0 <= index < count
     int count = 1;
+    std::string_view variable{};  // of the environment, which told it; empty: none
     bool operator==(const Shard&) const = default;
 };
 
-/// Frames f of `range` with (f - range.first) % shard.count == shard.index, ascending. Counted, not
-/// stored.
+/// Every `shard.count`-th of `frames`, from that at `shard.index` on. Counted, not stored.
 class ShardFrames {
  public:
-    ShardFrames(const FrameRange& range, const Shard& shard);
+    ShardFrames(FrameList frames, const Shard& shard);
     std::size_t size() const { return size_; }
 
     /// 0 <= i < size().
     int operator[](std::size_t i) const;
 
  private:
-    std::int64_t first_;
-    std::int64_t step_;
+    FrameList frames_;
+    std::size_t index_;
+    std::size_t count_;
     std::size_t size_;
 };
 

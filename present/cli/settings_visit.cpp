@@ -21,8 +21,8 @@ void count_members(SharedOptions& options) {
                             reflections, maps, shows_environment, compares_renderers,
                             environment_lights, lights_given, ambient_given, tone_curve_given,
                             shadow_rays_given, takes_automatic_exposure, automatic_exposure,
-                            takes_automatic_samples, camera, time, show_error, quiet, verbose] =
-        options;
+                            takes_automatic_samples, camera, time, show_error, progress, quiet,
+                            verbose] = options;
     [[maybe_unused]] auto& [load_time, allow_outside_paths, load_memory, clips, variant, strict,
                             line_width] = load;
     [[maybe_unused]] auto& [renderer, width, height, lights, tails, range_budget, seed, tree_share,
@@ -201,6 +201,7 @@ void visit_settings(SharedOptions& options, const SettingVisitor& f) {
     visit_camera(f, options.camera);
     visit_device(f, options.settings);
     OptionBuilder(f, "General")
+        .choice({"--progress", "", "", "How a job tells how far it is"}, options.progress)
         .flag("--quiet,-q", options.quiet, "Only warnings and errors on stderr")
         .flag("--verbose,-v", options.verbose, "More on stderr");
 }

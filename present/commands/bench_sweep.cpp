@@ -84,7 +84,7 @@ void measure_points(const BenchOptions& options, BenchRun& run, Sweep& sweep,
                     std::optional<BenchLog>& log, const std::function<void()>& begin) {
     const BenchFrames frames = bench_frames(options);
     const std::vector<SweepPoint> left = take_found(sweep, log);
-    Progress progress("measuring", run.frame_count(left, frames), !options.shared.quiet);
+    Progress progress("measuring", run.frame_count(left, frames), options.shared.shown_progress());
     run.on_frame([&progress] {
         check_interrupt();
         progress.advance();

@@ -105,9 +105,9 @@ Camera CameraMotion::at(const Scene& scene, int frame, double time) const {
     const Camera camera = choose_camera(choice, scene, aspect);
     if (!output_.turntable) return camera;
     const Box box = resting_bounds(scene);
-    const FrameRange& frames = *output_.frames;
-    const double done = static_cast<double>(frame) - frames.first;
-    const double all = static_cast<double>(frames.last) - frames.first + 1.0;
+    const FrameList& frames = *output_.frames;
+    const double done = static_cast<double>(frame) - frames.first();
+    const double all = static_cast<double>(frames.last()) - frames.first() + 1.0;
     return turned(camera, box.empty() ? glm::dvec3(0.0) : box.center(),
                   *output_.turntable * done / all);
 }

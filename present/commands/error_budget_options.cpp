@@ -56,7 +56,8 @@ BudgetChoice measure_choice(const SharedOptions& shared, const BudgetOptions& op
                             const ErrorBudget& budget, const ReportView& view,
                             const std::vector<ReportSetting>& settings) {
     ReportRun run(view, shared.settings, error_limits(options));
-    Progress progress("choosing", ReportRun::steps(settings.size()), !shared.quiet);
+    Progress progress("choosing", ReportRun::steps(settings.size()),
+                      progress_kind_of_part(shared.shown_progress()));
     run.on_step(check_interrupt);
     run.on_progress([&progress] { progress.advance(); });
     // Settings over the budget are not timed.

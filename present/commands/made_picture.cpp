@@ -87,7 +87,7 @@ WantedVideo wanted_video(const RenderOptions& options) {
     const OutputOptions& out = options.output;
     return {.file = out.output,
             .format = {settings.width, settings.height, out.frames_per_second},
-            .frames = out.frames ? ShardFrames(*out.frames, {}).size() : 1,
+            .frames = out.frames ? out.frames->size() : 1,
             .note = options.command};
 }
 

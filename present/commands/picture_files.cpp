@@ -172,7 +172,7 @@ PictureFiles::PictureFiles(const RenderOptions& options, std::size_t count,
                            const Renderer& renderer)
     : options_(options),
       video_(open_video(options)),
-      progress_("rendering", count, !options.shared.quiet),
+      progress_("rendering", count, options.shared.shown_progress()),
       memory_(renderer.memory()),
       count_(count) {
     if (!options.output.stats.empty() && options.output.frames) written_.log.emplace();

@@ -57,7 +57,8 @@ StripFile::StripFile(const RenderOptions& options, const PictureTask& task,
     : options_(options),
       task_(task),
       held_bytes_(memory.held_bytes),
-      progress_("strips", strips, !options.shared.quiet && !options.output.frames),
+      progress_("strips", strips,
+                options.output.frames ? ProgressKind::none : options.shared.shown_progress()),
       notes_of_(std::move(notes)),
       file_(task.file) {}
 

@@ -36,7 +36,7 @@ std::string noted_time(double time) { return text_of(time) + " s"; }
 std::string noted_command(const RenderOptions& options) {
     const auto& frames = options.output.frames;
     if (!options.shared.automatic_exposure || !frames) return options.command;
-    return fmt::format("{} # exposed by frame {}", options.command, frames->first);
+    return fmt::format("{} # exposed by frame {}", options.command, frames->first());
 }
 
 ImageNotes notes_of(const RenderOptions& options, const DeviceInfo& device, const Camera& camera,

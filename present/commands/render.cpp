@@ -32,7 +32,7 @@ void expose_automatically(const RenderOptions& options, SceneRenderer& pictures)
     const OutputOptions& out = options.output;
     const double time = options.shared.time;
     if (!out.frames) return pictures.expose_automatically(time);
-    const int first = out.frames->first;
+    const int first = out.frames->first();
     pictures.expose_automatically(time + first / out.frames_per_second, first,
                                   ", of the sequence's first frame");
 }
@@ -168,11 +168,12 @@ void run_render(RenderOptions& options) {
     begin_command(options.shared, !out.reference.empty());
     check_budget(options.shared, options.budget);
     options.command += inputs_comment(options);
+    if (!out.shard.variable.empty())
+        note(fmt::format("shard {} by {}", text_of(out.shard), out.shard.variable));
     const PictureTasks tasks(options);
     if (tasks.size() == 0) {
-        return note(fmt::format("nothing to render: shard {}/{} has none of the frames {}:{}",
-                                out.shard.index, out.shard.count, out.frames->first,
-                                out.frames->last));
+        return note(fmt::format("nothing to render: shard {} has none of the frames {}",
+                                text_of(out.shard), text_of(*out.frames)));
     }
     const std::size_t begin = tasks.first_to_do();
     if (begin == tasks.size()) return note("nothing to render: every file is there");

@@ -71,7 +71,8 @@ std::vector<ReportSetting> chosen_settings(const ReportOptions& options, const S
 
 void measure(const ReportOptions& options, const ReportView& view, ReportRun& run, Report& report) {
     const std::vector<ReportSetting> settings = chosen_settings(options, view.scene);
-    Progress progress("measuring", ReportRun::steps(settings.size()), !options.shared.quiet);
+    Progress progress("measuring", ReportRun::steps(settings.size()),
+                      options.shared.shown_progress());
     const auto advance = [&progress] { progress.advance(); };
     run.on_step(check_interrupt);
     run.on_progress(advance);

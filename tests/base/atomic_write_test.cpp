@@ -148,7 +148,7 @@ TEST(AtomicWrite, ADiskThatFillsUpLeavesTheOldFileAndNothingElse) {
 // Sends the first signal; returns when it has been noted.
 void ask_to_end() {
     kill(getpid(), SIGTERM);
-    while (!interrupt_requested()) usleep(1000);
+    while (ending_signal() == 0) usleep(1000);
 }
 
 // Sends the second signal, which kills.

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "tests/support/messages.h"
 
 namespace kilolux {
@@ -80,16 +82,27 @@ TEST(OptionValues, VectorsAndBoxes) {
 }
 
 TEST(OptionValues, FramesAndShards) {
-    const FrameRange frames = parse_frames("--frames", "3:12");
-    EXPECT_EQ(frames.first, 3);
-    EXPECT_EQ(frames.last, 12);
-    for (const char* text : {"12:3", "3", "3:", ":3", "-1:3", "a:b", "1:2:3", "3-12"}) {
+    const auto frames = [](const char* text) { return text_of(parse_frames("--frames", text)); };
+    for (const auto& [text, shown] : std::map<const char*, const char*>{{"3:12", "3:12"},
+                                                                        {"3-12", "3:12"},
+                                                                        {"3", "3:3"},
+                                                                        {"1-8x3", "1-7x3"},
+                                                                        {"3,7,20-30", "3,7,20-30"},
+                                                                        {"0:4x2,9", "0-4x2,9"}}) {
+        EXPECT_EQ(frames(text), shown) << text;
+        EXPECT_EQ(frames(shown), shown);
+    }
+    EXPECT_EQ(parse_frames("--frames", "1-8x3"), FrameRange({1, 7, 3}));
+    for (const char* text : {"12:3", "3:", ":3", "-1:3", "a:b", "1:2:3", "", "3,", "1-9x0", "1x2",
+                             "3-x2", "2-1x3", "1,2-9,9"}) {
         EXPECT_THROW(parse_frames("--frames", text), UsageError) << text;
     }
+    EXPECT_EQ(message_of<UsageError>([&] { frames("7,3-5"); }),
+              "--frames: '7,3-5' is not in ascending order: frame 3 comes after 7");
     const Shard shard = parse_shard("--shard", "3/4");
     EXPECT_EQ(shard.index, 3);
     EXPECT_EQ(shard.count, 4);
-    for (const char* text : {"4/4", "0/0", "-1/4", "1", "1/", "a/b", "1/2/3"}) {
+    for (const char* text : {"4/4", "0/0", "-1/4", "1", "1/", "a/b", "1/2/3", "auto/", "auto/0"}) {
         const auto message = message_of<UsageError>([&] { parse_shard("--shard", text); });
         EXPECT_TRUE(contains(message, "--shard: '" + std::string(text) + "' is not I/N"))
             << message;

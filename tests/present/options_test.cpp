@@ -174,8 +174,8 @@ TEST(Options, OutputOptionsArrive) {
     EXPECT_EQ(p.output.output, "a/f.####.exr");
     EXPECT_TRUE(p.output.encoding.half_colour);
     ASSERT_TRUE(p.output.frames.has_value());
-    EXPECT_EQ(p.output.frames->first, 3);
-    EXPECT_EQ(p.output.frames->last, 9);
+    EXPECT_EQ(p.output.frames->first(), 3);
+    EXPECT_EQ(p.output.frames->last(), 9);
     EXPECT_EQ(p.output.frames_per_second, 12.5);
     EXPECT_EQ(p.output.shard.index, 1);
     EXPECT_EQ(p.output.shard.count, 4);

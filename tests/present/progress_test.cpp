@@ -34,19 +34,19 @@ class StderrTo {
     int saved_;
 };
 
-void run_progress(int descriptor, bool shown) {
+void run_progress(int descriptor, ProgressKind kind) {
     const StderrTo redirected(descriptor);
-    Progress progress("rendering", 2, shown);
+    Progress progress("rendering", 2, kind);
     progress.advance();
     progress.erase();
     progress.advance();
 }
 
-std::string seen_on_terminal(bool shown) {
+std::string seen_on_terminal(ProgressKind kind) {
     int ours = -1;
     int theirs = -1;
     if (openpty(&ours, &theirs, nullptr, nullptr, nullptr) != 0) return "no terminal";
-    run_progress(theirs, shown);
+    run_progress(theirs, kind);
     close(theirs);  // so that reading ends
     std::string seen;
     std::array<char, 4096> text{};
@@ -81,32 +81,32 @@ TEST(Progress, NeverWiderThanTheTerminal) {
 TEST(Progress, NothingWhereThereIsNoTerminal) {
     const TemporaryFolder folder;
     const int file = open((folder / "err").c_str(), O_WRONLY | O_CREAT, 0600);
-    run_progress(file, true);
+    run_progress(file, ProgressKind::automatic);
     close(file);
     EXPECT_EQ(text_of_file(folder / "err"), "");
 }
 
 TEST(Progress, ATerminalSeesItUnlessQuiet) {
-    const std::string seen = seen_on_terminal(true);
+    const std::string seen = seen_on_terminal(ProgressKind::automatic);
     EXPECT_TRUE(contains(seen, "rendering 0/2")) << seen;
     EXPECT_TRUE(contains(seen, "rendering 2/2")) << seen;
     EXPECT_TRUE(seen.ends_with("\r\x1b[K")) << "the bar is not erased: " << seen;
-    EXPECT_EQ(seen_on_terminal(false), "");
+    EXPECT_EQ(seen_on_terminal(ProgressKind::none), "");
 }
 
 // Tests run off a terminal.
 TEST(Progress, WritesALineNowAndThenOffATerminal) {
-    const auto written = [](bool shown, double line_s) {
+    const auto written = [](ProgressKind kind, double line_s) {
         testing::internal::CaptureStderr();
         {
-            Progress progress("rendering", 3, shown, line_s);
+            Progress progress("rendering", 3, kind, line_s);
             progress.advance();
         }
         return testing::internal::GetCapturedStderr();
     };
-    EXPECT_EQ(written(true, 30.0), "");
-    EXPECT_EQ(written(false, 0.0), "");
-    const std::string lines = written(true, 0.0);
+    EXPECT_EQ(written(ProgressKind::automatic, 30.0), "");
+    EXPECT_EQ(written(ProgressKind::none, 0.0), "");
+    const std::string lines = written(ProgressKind::automatic, 0.0);
     EXPECT_NE(lines.find("rendering 1/3 ["), std::string::npos) << lines;
     EXPECT_EQ(lines.find('\r'), std::string::npos) << lines;
     EXPECT_TRUE(lines.ends_with('\n')) << lines;
@@ -115,12 +115,42 @@ TEST(Progress, WritesALineNowAndThenOffATerminal) {
 TEST(Progress, WritesLinesWhileAStepLasts) {
     testing::internal::CaptureStderr();
     {
-        const Progress progress("rendering", 1, true, 0.02);
+        const Progress progress("rendering", 1, ProgressKind::automatic, 0.02);
         usleep(500'000);
     }
     const std::string lines = testing::internal::GetCapturedStderr();
     EXPECT_GE(std::ranges::count(lines, '\n'), 2) << lines;
     EXPECT_TRUE(lines.starts_with("rendering 0/1 [")) << lines;
+}
+
+TEST(Progress, PlainLinesAlsoOnATerminal) {
+    const std::string seen = seen_on_terminal(ProgressKind::plain);
+    EXPECT_EQ(seen.find('\x1b'), std::string::npos) << seen;
+}
+
+// The lines that Open Job Description and Tractor look for.
+TEST(Progress, FarmsReadTheirLinesOnStandardOutput) {
+    EXPECT_EQ(farm_line(ProgressKind::openjd, 0.41567), "openjd_progress: 41.6");
+    EXPECT_EQ(farm_line(ProgressKind::alf, 0.41999), "ALF_PROGRESS 41%");
+    EXPECT_EQ(farm_line(ProgressKind::plain, 0.5), "");
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    {
+        Progress progress("rendering", 4, ProgressKind::openjd);
+        for (int i = 0; i < 4; ++i) progress.advance();
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    EXPECT_EQ(testing::internal::GetCapturedStdout(),
+              "openjd_progress: 0.0\nopenjd_progress: 25.0\nopenjd_progress: 50.0\n"
+              "openjd_progress: 75.0\nopenjd_progress: 100.0\n");
+}
+
+TEST(Progress, QuietSilencesWhatIsAutomatic) {
+    EXPECT_EQ(progress_kind(ProgressKind::automatic, true), ProgressKind::none);
+    EXPECT_EQ(progress_kind(ProgressKind::automatic, false), ProgressKind::automatic);
+    EXPECT_EQ(progress_kind(ProgressKind::alf, true), ProgressKind::alf);
+    EXPECT_EQ(progress_kind_of_part(ProgressKind::alf), ProgressKind::none);
+    EXPECT_EQ(progress_kind_of_part(ProgressKind::plain), ProgressKind::plain);
 }
 
 }  // namespace

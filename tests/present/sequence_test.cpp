@@ -7,6 +7,9 @@
 #include <set>
 #include <vector>
 
+#include "host/base/error.h"
+#include "tests/support/messages.h"
+
 namespace kilolux {
 namespace {
 
@@ -30,22 +33,31 @@ std::vector<int> all(const ShardFrames& frames) {
 }
 
 TEST(Sequence, ShardsPartTheFrames) {
-    EXPECT_EQ(all({{5, 12}, {1, 3}}), (std::vector{6, 9, 12}));
-    EXPECT_EQ(all({{0, 3}, {0, 1}}), (std::vector{0, 1, 2, 3}));
-    EXPECT_EQ(all({{9, 9}, {0, 4}}), (std::vector{9}));
-    EXPECT_EQ(all({{9, 9}, {1, 4}}), (std::vector<int>{}));
+    EXPECT_EQ(all({FrameRange{5, 12}, {1, 3}}), (std::vector{6, 9, 12}));
+    EXPECT_EQ(all({FrameRange{0, 3}, {0, 1}}), (std::vector{0, 1, 2, 3}));
+    EXPECT_EQ(all({FrameRange{9, 9}, {0, 4}}), (std::vector{9}));
+    EXPECT_EQ(all({FrameRange{9, 9}, {1, 4}}), (std::vector<int>{}));
     const int end = std::numeric_limits<int>::max();
-    EXPECT_EQ(all({{end - 2, end}, {1, 2}}), (std::vector{end - 1}));
-    const ShardFrames every({0, end}, {0, 1});
+    EXPECT_EQ(all({FrameRange{end - 2, end}, {1, 2}}), (std::vector{end - 1}));
+    const ShardFrames every(FrameRange{0, end}, {0, 1});
     EXPECT_EQ(every.size(), std::size_t{1} << 31);
     EXPECT_EQ(every[every.size() - 1], end);
+}
+
+TEST(Sequence, ListsOfRangesAscend) {
+    const FrameList list({{1, 9, 4}, {10, 10}, {20, 22, 2}});
+    EXPECT_EQ(all({list, {}}), (std::vector{1, 5, 9, 10, 20, 22}));
+    EXPECT_EQ(all({list, {1, 4}}), (std::vector{5, 22}));
+    EXPECT_EQ(list.first(), 1);
+    EXPECT_EQ(list.last(), 22);
+    EXPECT_EQ(message_of<Error>([] { FrameList({{1, 9}, {9, 12}}); }), "frame 9 comes after 9");
 }
 
 TEST(Sequence, EveryFrameIsInOneShard) {
     for (int count = 1; count <= 9; ++count) {
         std::multiset<int> seen;
         for (int index = 0; index < count; ++index) {
-            for (const int frame : all({{7, 31}, {index, count}})) {
+            for (const int frame : all({FrameRange{7, 31}, {index, count}})) {
                 EXPECT_EQ((frame - 7) % count, index) << "frame " << frame << " of " << count;
                 seen.insert(frame);
             }

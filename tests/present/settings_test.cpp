@@ -133,7 +133,8 @@ std::map<std::string, std::string> texts_of(Options options) {
 }
 
 // No result depends on these, but for the device, which conditions name on its own.
-const Names kOfNoResult = {"--strict", "--allow-outside-paths", "--quiet", "--verbose", "--device"};
+const Names kOfNoResult = {"--strict",  "--allow-outside-paths", "--quiet", "--verbose", "--device",
+                           "--progress"};
 
 TEST(Settings, EachChangesItselfAlone) {
     const auto defaults = initial<RenderOptions>();
@@ -262,17 +263,17 @@ TEST(Settings, ComeFromConfigFiles) {
 
 // A picture's note holds the options that change it, and --skip-existing refuses it by them.
 TEST(Settings, AreInTheNoteOfAPictureThatTheyChange) {
-    const Names of_no_picture = {"--strict",       "--allow-outside-paths",
-                                 "--quiet",        "--verbose",
-                                 "--device",       "--no-reuse",
-                                 "--max-memory",   "--lanes",
-                                 "--output",       "--stats",
-                                 "--frames",       "--fps",
-                                 "--shard",        "--exr-compression",
-                                 "--png-level",    "--metric",
-                                 "--threshold",    "--reference",
-                                 "--difference",   "--skip-existing",
-                                 "--mixed-devices"};
+    const Names of_no_picture = {"--strict",        "--allow-outside-paths",
+                                 "--quiet",         "--verbose",
+                                 "--device",        "--no-reuse",
+                                 "--max-memory",    "--lanes",
+                                 "--output",        "--stats",
+                                 "--frames",        "--fps",
+                                 "--shard",         "--exr-compression",
+                                 "--png-level",     "--metric",
+                                 "--threshold",     "--reference",
+                                 "--difference",    "--skip-existing",
+                                 "--mixed-devices", "--progress"};
     const TemporaryFolder folder;
     const std::string before = picture_command(initial<RenderOptions>());
     Frame frame;
@@ -317,6 +318,7 @@ TEST(Settings, AreInTheCopiedCommand) {
     const Scene scene = make_generated_scene("grid");
     // Of no picture, said as positions, or not in a PNG.
     const Names not_said = {"--quiet",
+                            "--progress",
                             "--verbose",
                             "--aov",
                             "--camera-index",

@@ -25,7 +25,7 @@ struct UnfinishedFile {
 };
 
 struct SignalState {
-    std::atomic<bool> requested = false;
+    std::atomic<int> signal = 0;  // that asked for the end
     std::atomic<bool> catches = false;
     std::mutex mutex;  // guards `unfinished`
     std::vector<UnfinishedFile> unfinished;
@@ -61,7 +61,7 @@ void remove_unfinished_files() {
 void take_signals(const sigset_t& signals) {
     int number = 0;
     sigwait(&signals, &number);
-    state().requested = true;
+    state().signal = number;
     sigwait(&signals, &number);
     remove_unfinished_files();
     signal(number, SIG_DFL);
@@ -75,7 +75,7 @@ void take_signals(const sigset_t& signals) {
 // LLVM, in the OpenCL compiler, replaces it by its own, which removes the files that are being
 // compiled, and the compiler then reports that they are missing.
 void catch_signals() {
-    state().requested = false;
+    state().signal = 0;
     state().catches = true;
     for (const int number : {SIGXFSZ, SIGPIPE}) signal(number, SIG_IGN);
     signal(SIGCHLD,
@@ -85,12 +85,12 @@ void catch_signals() {
     std::thread(take_signals, signals).detach();
 }
 
-bool interrupt_requested() { return state().requested; }
+int ending_signal() { return state().signal; }
 
 void check_interrupt() { check_interrupt_at(-1.0); }
 
 void check_interrupt_at(double share) {
-    if (interrupt_requested()) throw Interrupted();
+    if (ending_signal() != 0) throw Interrupted();
     if (watch_of_thread != nullptr) watch_of_thread->call_(share);
 }
 

@@ -12,8 +12,8 @@ namespace kilolux {
 /// becomes an error of write() instead of a signal. Called before other threads are started.
 void catch_signals();
 
-/// Whether a signal has asked for the end. Later failures are taken for its effect.
-bool interrupt_requested();
+/// The signal that has asked for the end; 0: none. Later failures are taken for its effect.
+int ending_signal();
 
 /// Called between the parts of long work. Throws Interrupted once a signal has asked for the end,
 /// and asks this thread's WorkWatch.

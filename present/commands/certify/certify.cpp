@@ -34,7 +34,9 @@ struct CertifyOptions {
     bool resume = false;
     std::vector<std::string> tables;  // --table: certificates to print instead of making one
     std::string output;               // file, "-" for standard output, empty: none
+    ProgressKind progress = ProgressKind::automatic;
     bool quiet = false;
+    ProgressKind shown_progress() const { return progress_kind(progress, quiet); }
 };
 
 void check(const CertifyOptions& o) {
@@ -44,6 +46,8 @@ void check(const CertifyOptions& o) {
             "--table: prints what was certified; it goes with no --case, --with, --isolate, "
             "--jobs, --resume or -o");
     }
+    refuse_if(o.output == "-" && is_of_farm(o.progress),
+              "--progress: standard output is the result's; name a file after -o");
     refuse_if(o.resume && (o.output.empty() || o.output == "-"),
               "--resume: goes on with the file of -o, which is not given");
 }
@@ -95,7 +99,7 @@ Certificate make_isolated(const CertifyOptions& options, const IsolatedRequest& 
     const Json capabilities = capabilities_json(device);
     std::optional<Progress> progress;
     const auto on_begin = [&](const Certificate&, std::size_t left) {
-        progress.emplace("certifying", left, !options.quiet);
+        progress.emplace("certifying", left, options.shown_progress());
     };
     const auto on_done = [&](const Certificate& found, std::size_t left) {
         keep(options, capabilities, found, left);
@@ -116,7 +120,7 @@ Certificate make_certificate(const CertifyOptions& options, const cl::Device& de
     }
     Certificate out;
     Progress progress("certifying", cases.size() * options.lanes.size() + parts.size(),
-                      !options.quiet);
+                      options.shown_progress());
     const auto step = [&] {
         check_interrupt();
         progress.advance();
@@ -188,6 +192,7 @@ void add_result_options(CLI::App& command, CertifyOptions& options) {
                    }
                },
                {})
+        .choice({"--progress", "", "", "How it tells how far it is"}, options.progress)
         .flag("--quiet", options.quiet, "No progress bar");
 }
 

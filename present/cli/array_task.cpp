@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/cli/array_task.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <limits>
+#include <vector>
+
+#include "host/base/error.h"
+#include "host/base/text.h"
+
+namespace kilolux {
+namespace {
+
+const ArrayVariables& variables_of_task(const std::string& option) {
+    std::vector<std::string> names;
+    for (const ArrayVariables& row : kArrayVariables) {
+        if (std::getenv(row.index) != nullptr) return row;
+        names.emplace_back(row.index);
+    }
+    throw UsageError(fmt::format("{} auto: the environment has none of {}; name the shard as I/N",
+                                 option, joined(names)));
+}
+
+// A whole number of the environment.
+int number_in(const std::string& option, const char* variable) {
+    const char* text = std::getenv(variable);
+    if (text == nullptr) {
+        throw UsageError(fmt::format("{} auto: the environment lacks {}", option, variable));
+    }
+    const auto number = count_of(text);
+    if (number && *number <= std::numeric_limits<int>::max()) return static_cast<int>(*number);
+    throw UsageError(
+        fmt::format("{} auto: {} is '{}', no whole number from 0 on", option, variable, text));
+}
+
+Shard checked_shard(const std::string& option, const ArrayVariables& row, std::int64_t index,
+                    int count) {
+    if (index >= 0 && index < count) return {static_cast<int>(index), count, row.index};
+    throw UsageError(fmt::format("{} auto: {} is {}, which is none of {} tasks from {} on", option,
+                                 row.index, std::getenv(row.index), count, row.base));
+}
+
+}  // namespace
+
+Shard shard_of_task(const std::string& option) {
+    const ArrayVariables& row = variables_of_task(option);
+    if (row.count == nullptr) {
+        throw UsageError(
+            fmt::format("{} auto: {} does not tell how many tasks there are; write auto/N", option,
+                        row.scheduler));
+    }
+    const int count = number_in(option, row.count);
+    const int first = row.first == nullptr ? row.base : number_in(option, row.first);
+    const int step = row.step == nullptr ? 1 : number_in(option, row.step);
+    const std::int64_t place = std::int64_t{number_in(option, row.index)} - first;
+    if (step < 1 || place % step != 0) {
+        throw UsageError(fmt::format("{} auto: {}'s array is no range of indices; write auto/N",
+                                     option, row.scheduler));
+    }
+    return checked_shard(option, row, place / step, count);
+}
+
+Shard shard_of_task(const std::string& option, int count) {
+    const ArrayVariables& row = variables_of_task(option);
+    return checked_shard(option, row, std::int64_t{number_in(option, row.index)} - row.base, count);
+}
+
+}  // namespace kilolux
