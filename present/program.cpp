@@ -10,6 +10,7 @@
 #include "host/base/suggest.h"
 #include "host/base/version.h"
 #include "host/render/renderer.h"
+#include "present/cli/commit.h"
 #include "present/cli/option_builder.h"
 #include "present/config_file.h"
 #include "present/help.h"
@@ -124,7 +125,7 @@ bool Program::answer_question(const Words& words) const {
         return true;
     }
     if (!has_any(words, {"--version", "-V"})) return false;
-    print("kilolux " + version() + "\n");
+    print(fmt::format("kilolux {}, commit {}\nbuilt with {}\n", version(), commit(), built_with()));
     return true;
 }
 

@@ -9,4 +9,7 @@ namespace kilolux {
 /// without git. commit.cmake writes it at every build.
 std::string commit();
 
+/// The compiler, the kind of build and the versions of libraries.
+std::string built_with();
+
 }  // namespace kilolux

@@ -42,10 +42,14 @@ add_custom_command(TARGET kilolux_python POST_BUILD
   COMMAND ${CMAKE_COMMAND} -E env ${KILOLUX_PYTHON_ENVIRONMENT} ${Python3_EXECUTABLE} -B ${make_options} ${python_folder}
   BYPRODUCTS ${python_folder}/options.py VERBATIM)
 
-# Where this Python looks below a prefix: lib/python3.11/dist-packages.
+# Where this Python looks below a prefix: lib/python3.11/dist-packages, where Debian's packages have lib/python3.
 execute_process(COMMAND ${Python3_EXECUTABLE} -c "import os, sysconfig; print(os.path.basename(sysconfig.get_path('purelib')))"
   OUTPUT_VARIABLE python_packages OUTPUT_STRIP_TRAILING_WHITESPACE)
-set(KILOLUX_PYTHON_FOLDER lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/${python_packages} CACHE STRING
+set(python_version ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR})
+if(CMAKE_INSTALL_PREFIX STREQUAL /usr)
+  set(python_version 3)
+endif()
+set(KILOLUX_PYTHON_FOLDER lib/python${python_version}/${python_packages} CACHE STRING
   "Where the Python module is installed, below the prefix")
 install(TARGETS kilolux_python LIBRARY DESTINATION ${KILOLUX_PYTHON_FOLDER}/kilolux COMPONENT python)
 install(TARGETS kilolux_images_module LIBRARY DESTINATION ${KILOLUX_PYTHON_FOLDER}/kilolux COMPONENT python)

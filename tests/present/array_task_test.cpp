@@ -6,6 +6,7 @@
 
 #include <list>
 #include <map>
+#include <optional>
 
 #include "host/base/error.h"
 #include "present/cli/option_values.h"
@@ -23,7 +24,7 @@ class Task {
     explicit Task(const Variables& variables) {
         for (const ArrayVariables& row : kArrayVariables) {
             for (const char* name : {row.index, row.count, row.first, row.step}) {
-                if (name != nullptr) set_.emplace_back(name, nullptr);
+                if (name != nullptr) set_.emplace_back(name, std::nullopt);
             }
         }
         for (const auto& [name, value] : variables) set_.emplace_back(name, value);

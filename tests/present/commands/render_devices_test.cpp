@@ -119,7 +119,7 @@ TEST_F(RenderDevices, LeaveNothingOfAPictureThatIsInterrupted) {
         sleep(2);
         kill(child, SIGTERM);
     });
-    EXPECT_EQ(result.code, 130) << result.err;
+    EXPECT_EQ(result.code, 143) << result.err;
     EXPECT_FALSE(contains(result.err, "left out")) << "no device has failed\n" << result.err;
     EXPECT_TRUE(names_in(two_).empty());
 }
@@ -200,7 +200,7 @@ TEST_F(RenderDevices, EndTogetherWhenInterrupted) {
                 usleep(10'000);
             kill(child, SIGTERM);
         });
-    EXPECT_EQ(result.code, 130) << result.err;
+    EXPECT_EQ(result.code, 143) << result.err;
     const std::size_t count = names_in(two_).size();
     for (std::size_t i = 0; i < count; ++i) {
         const std::string number = std::to_string(i);

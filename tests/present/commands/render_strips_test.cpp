@@ -124,7 +124,7 @@ TEST_F(RenderStrips, LeaveNothingWhenInterrupted) {
         EXPECT_FALSE(names_in(strips_).empty());
         kill(child, SIGTERM);
     });
-    EXPECT_EQ(result.code, 130) << result.err;
+    EXPECT_EQ(result.code, 143) << result.err;
     EXPECT_TRUE(names_in(strips_).empty());
 }
 

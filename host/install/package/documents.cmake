@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: Apache-2.0
+# Writes the man page and bash's completion of the program `kilolux` below `folder`.
+function(output_of result)
+  execute_process(COMMAND ${kilolux} ${ARGN} OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
+  set(${result} "${text}" PARENT_SCOPE)
+endfunction()
+
+# Text as it stands: roff reads a backslash, and a dot or an apostrophe that begins a line.
+function(verbatim result text)
+  string(REPLACE "\\" "\\e" text "${text}")
+  string(REPLACE "-" "\\-" text "${text}")
+  string(REGEX REPLACE "(^|\n)([.'])" "\\1\\\\&\\2" text "${text}")
+  set(${result} ".nf\n${text}.fi\n" PARENT_SCOPE)
+endfunction()
+
+output_of(version --version)
+string(REGEX MATCH "[0-9]+\\.[0-9]+\\.[0-9]+" version "${version}")
+output_of(help --help)
+string(REGEX MATCHALL "\n  [a-z]+ " commands "${help}")
+verbatim(body "${help}")
+set(page ".TH KILOLUX 1 \"\" \"kilolux ${version}\" \"User Commands\"\n.SH NAME\nkilolux \\- many-light renderer\n.SH SYNOPSIS\n${body}")
+foreach(command IN LISTS commands)
+  string(STRIP "${command}" command)
+  output_of(help ${command} --help-all)
+  verbatim(body "${help}")
+  string(TOUPPER ${command} title)
+  string(APPEND page ".SH ${title}\n${body}")
+endforeach()
+file(WRITE ${folder}/man/man1/kilolux.1 "${page}")
+execute_process(COMMAND gzip -9nf ${folder}/man/man1/kilolux.1 COMMAND_ERROR_IS_FATAL ANY)
+output_of(completion --completion bash)
+file(WRITE ${folder}/bash-completion/completions/kilolux "${completion}")
