@@ -40,6 +40,12 @@ struct ImageLayout {
     bool associated_alpha = false;  // of a file that is read: its colours are multiplied by alpha
     // Of a file that is read: x and y of red, green, blue and white (CIE 1931); else empty.
     std::vector<float> chromaticities{};
+    // The larger picture that these pixels are a part of, from (x, y) on; width 0: there is none.
+    // EXR's display window, in which the pixels are the data window.
+    int x = 0;
+    int y = 0;
+    int full_width = 0;
+    int full_height = 0;
 
     std::size_t pixels() const {
         return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);

@@ -105,6 +105,30 @@ Frame Renderer::render_strip(const Camera& camera, double time, Band rows) {
     });
 }
 
+Frame Renderer::render_crop(const Camera& camera, double time, const PixelRect& rect) {
+    const RenderSettings& s = settings();
+    const bool is_inside = rect.x >= 0 && rect.y >= 0 && rect.width > 0 && rect.height > 0 &&
+                           rect.width <= s.width - rect.x && rect.height <= s.height - rect.y;
+    if (!is_inside) {
+        throw Error(fmt::format("render: no crop {},{},{},{} of a picture of {}x{} pixels", rect.x,
+                                rect.y, rect.width, rect.height, s.width, s.height));
+    }
+    Frame out;
+    if (!can_make_strips(s)) {
+        add_crop(out, rect, render(camera, time));
+        return out;
+    }
+    const int least = memory().least_rows;
+    const int last = rect.y + rect.height - 1;
+    const int end = std::min(s.height, (last / least + 1) * least);
+    const int rows = std::max(least, memory().strip_rows / least * least);
+    for (int row = rect.y / least * least; row < end; row += rows) {
+        const Band strip{row, std::min(rows, end - row)};
+        add_crop(out, rect, render_strip(camera, time, strip));
+    }
+    return out;
+}
+
 std::vector<Band> Renderer::strips() const {
     const int height = settings().height;
     const int rows = memory().strip_rows;

@@ -8,6 +8,7 @@
 #include "host/base/spares.h"
 #include "host/gpu/device.h"
 #include "host/picture/bands.h"
+#include "host/picture/crop.h"
 #include "host/picture/decoded_surfaces.h"
 #include "host/picture/frame.h"
 #include "host/picture/pixel_probe.h"
@@ -87,6 +88,12 @@ class Renderer {
     /// bits; its counts and times are those of the strip. Throws Error where a view or a stage such
     /// as bloom needs the whole picture. Blocks; calls check_interrupt() as render() does.
     Frame render_strip(const Camera& camera, double time, Band rows);
+
+    /// The pixels of `rect` of the picture of render(), as a frame of their own with the same bits.
+    /// Makes whole rows, and where a view or a stage such as bloom needs it the whole picture;
+    /// counts and times are those of what it makes. Throws Error for pixels that the picture does
+    /// not have. Blocks; calls check_interrupt() as render() does.
+    Frame render_crop(const Camera& camera, double time, const PixelRect& rect);
 
     /// The strips of a picture from the top; one, the whole, unless it is too large for the host or
     /// for one piece.

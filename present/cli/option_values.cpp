@@ -231,6 +231,23 @@ FrameList parse_frames(const std::string& option, std::string_view text) {
     }
 }
 
+PixelRect parse_crop(const std::string& option, std::string_view text) {
+    constexpr CountRange kPlaces{0, 65536};
+    const auto v = parse_counts(option, text, "X,Y,W,H", kPlaces);
+    if (v[2] == 0 || v[3] == 0) refuse(option, text, "X,Y,W,H with W and H above 0");
+    return {v[0], v[1], v[2], v[3]};
+}
+
+TileGrid parse_tiles(const std::string& option, std::string_view text) {
+    constexpr int kMost = 256;
+    const auto counts = int_pair(text, 'x');
+    if (!counts || counts->first < 1 || counts->second < 1 || counts->first > kMost ||
+        counts->second > kMost) {
+        refuse(option, text, "CxR, columns and rows of tiles, each from 1 to 256");
+    }
+    return {counts->first, counts->second};
+}
+
 Shard parse_shard(const std::string& option, std::string_view text) {
     if (text == "auto") return shard_of_task(option);
     if (text.starts_with("auto/")) {
@@ -308,6 +325,12 @@ std::string text_of(const FrameList& frames) {
     return out;
 }
 std::string text_of(const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); }
+std::string text_of(const PixelRect& rect) {
+    return fmt::format("{},{},{},{}", rect.x, rect.y, rect.width, rect.height);
+}
+std::string text_of(const TileGrid& tiles) {
+    return fmt::format("{}x{}", tiles.columns, tiles.rows);
+}
 std::string text_of(const Box& box) {
     return box.empty() ? "" : text_of(box.min) + "," + text_of(box.max);
 }

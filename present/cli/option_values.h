@@ -109,6 +109,12 @@ std::vector<std::string> parse_list(const std::string& option, std::string_view 
 /// Frames "A:B", A <= B, or a list of frames and ranges in ascending order: "1-99x2,105".
 FrameList parse_frames(const std::string& option, std::string_view text);
 
+/// A part of a picture "X,Y,W,H" [pixel]; W and H at least 1.
+PixelRect parse_crop(const std::string& option, std::string_view text);
+
+/// "CxR": columns and rows, each from 1 to 256.
+TileGrid parse_tiles(const std::string& option, std::string_view text);
+
 /// Shard "I/N", 0 <= I < N; "auto" and "auto/N": see shard_of_task().
 Shard parse_shard(const std::string& option, std::string_view text);
 
@@ -132,6 +138,8 @@ std::string text_of(const Box& value);
 std::string text_of(const BackgroundChoice& value);
 std::string text_of(const FrameList& frames);
 std::string text_of(const Shard& shard);
+std::string text_of(const PixelRect& rect);
+std::string text_of(const TileGrid& tiles);
 inline std::string text_of(const std::string& value) { return value; }
 template <typename T>
 requires requires(const T& value) { text_of(value); }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "host/render/settings.h"
 #include "host/scene/gltf/load_scene.h"
@@ -62,6 +63,8 @@ struct OutputOptions {
     std::optional<FrameList> frames;
     double frames_per_second = 24.0;
     Shard shard;
+    std::optional<PixelRect> crop;
+    std::optional<TileGrid> tiles;
     std::optional<double> turntable;    // [degree] over the frames
     std::filesystem::path camera_keys;  // empty: none
     bool skip_existing = false;
@@ -73,6 +76,10 @@ struct OutputOptions {
     bool mixed_devices = false;
     bool operator==(const OutputOptions&) const = default;
 };
+
+/// Width and height of what is written of the picture [pixel].
+std::pair<int, int> written_size(const RenderSettings& settings,
+                                 const std::optional<PixelRect>& crop);
 
 /// The extensions of pictures and videos.
 std::vector<std::string> output_extensions();

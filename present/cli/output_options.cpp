@@ -5,6 +5,7 @@
 
 #include "host/base/error.h"
 #include "host/base/suggest.h"
+#include "host/render/plan/memory_plan.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/options.h"
 #include "present/image/image_file.h"
@@ -15,9 +16,9 @@ namespace {
 
 // A new member does not compile here: add a row below, then its name.
 void count_members(OutputOptions& options) {
-    [[maybe_unused]] auto& [encoding, output, ocio, frames, frames_per_second, shard, turntable,
-                            camera_keys, skip_existing, stats, reference, threshold, metric,
-                            difference, mixed_devices] = options;
+    [[maybe_unused]] auto& [encoding, output, ocio, frames, frames_per_second, shard, crop, tiles,
+                            turntable, camera_keys, skip_existing, stats, reference, threshold,
+                            metric, difference, mixed_devices] = options;
     [[maybe_unused]] auto& [half_colour, uint_ids, bits, png_level, exr_compression] = encoding;
     [[maybe_unused]] auto& [display, view, input] = ocio;
 }
@@ -97,6 +98,15 @@ void visit_sequence(const SettingVisitor& f, OutputOptions& o) {
                 "if need be, by the variables of Slurm, Kubernetes, AWS Batch, Open MPI or GNU "
                 "parallel"},
                o.shard, parse_shard)
+        .value({"--crop", "X,Y,W,H", "",
+                "Only these pixels of the picture, with the same bits; an EXR file has them as its "
+                "data window. Takes the time of whole rows",
+                kPicture},
+               o.crop, parse_crop)
+        .value({"--tiles", "CxR", "",
+                "The picture as C columns and R rows of crops, a file each; #### in its name is "
+                "the tile's number, and --shard spreads them"},
+               o.tiles, parse_tiles)
         .number({"--turntable", "DEGREES", "",
                  "The camera goes so far around the vertical axis through the scene's middle over "
                  "the frames; 360 ends one step before its start",
@@ -131,18 +141,39 @@ void visit_comparison(const SettingVisitor& f, OutputOptions& o) {
 }
 
 void check_sequence(const OutputOptions& options) {
-    const auto check = [&options](const char* name, const std::filesystem::path& file) {
+    const char* const numbers =
+        options.tiles ? "tile numbers of --tiles" : "frame numbers of --frames";
+    const bool is_one = !options.frames && !options.tiles;
+    const auto check = [&](const char* name, const std::filesystem::path& file) {
         const bool pattern = has_frame_pattern(file);
-        refuse_if(options.frames && !pattern,
-                  fmt::format("{}: '{}' has no #### for the frame numbers of --frames", name,
-                              file.string()));
-        refuse_if(!options.frames && pattern,
+        refuse_if(!is_one && !pattern,
+                  fmt::format("{}: '{}' has no #### for the {}", name, file.string(), numbers));
+        refuse_if(is_one && pattern,
                   fmt::format("{}: '{}' has # for a frame number, but there is no --frames A:B",
                               name, file.string()));
     };
     if (!is_video(options.output)) check("--output", options.output);
     if (!options.difference.empty()) check("--difference", options.difference);
-    refuse_if(!options.frames && options.shard.count > 1, "--shard: needs --frames A:B");
+    refuse_if(is_one && options.shard.count > 1, "--shard: needs --frames A:B or --tiles CxR");
+}
+
+void check_parts(const RenderSettings& settings, const OutputOptions& options) {
+    refuse_if(options.tiles && options.frames, "--tiles: are of one picture; leave out --frames");
+    refuse_if(options.tiles && options.crop, "--tiles and --crop exclude each other");
+    const auto check = [&](const PixelRect& part, const char* name) {
+        refuse_if(part.width > settings.width - part.x || part.height > settings.height - part.y ||
+                      part.width < 1 || part.height < 1,
+                  fmt::format("{}: {} is no part of a picture of {}x{} pixels", name, text_of(part),
+                              settings.width, settings.height));
+        refuse_if(
+            std::uint64_t(part.width) * std::uint64_t(part.height) > kLargePicture,
+            fmt::format("{}: {} has more than {} pixels", name, text_of(part), kLargePicture));
+    };
+    if (options.crop) check(*options.crop, "--crop");
+    const int count = options.tiles ? options.tiles->columns * options.tiles->rows : 0;
+    for (int i = 0; i < count; ++i) {
+        check(tile_rect(*options.tiles, i, settings.width, settings.height), "--tiles");
+    }
 }
 
 void check_motion(const CameraChoice& camera, const OutputOptions& options) {
@@ -187,7 +218,9 @@ void check_video(const SharedOptions& shared, const OutputOptions& options) {
     }
     refuse_if(file == "-" && options.stats == "-",
               "--stats: standard output is the video's; name a file");
-    check_video_size(file, shared.settings.width, shared.settings.height);
+    refuse_video(options.tiles.has_value(), "--tiles");
+    const auto [width, height] = written_size(shared.settings, options.crop);
+    check_video_size(file, width, height);
     uses_ocio(options.ocio);
 }
 
@@ -207,6 +240,12 @@ void check_format(const SharedOptions& shared, const OutputOptions& options) {
 
 }  // namespace
 
+std::pair<int, int> written_size(const RenderSettings& settings,
+                                 const std::optional<PixelRect>& crop) {
+    if (crop) return {crop->width, crop->height};
+    return {settings.width, settings.height};
+}
+
 std::vector<std::string> output_extensions() {
     std::vector<std::string> out = image_extensions();
     for (const std::string& video : video_extensions()) out.push_back(video);
@@ -223,6 +262,7 @@ void visit_settings(OutputOptions& options, const SettingVisitor& f) {
 void check_output_options(const SharedOptions& shared, const OutputOptions& options) {
     refuse_if(options.output.empty(), "--output: needs a file, e.g. -o picture.png");
     check_sequence(options);
+    check_parts(shared.settings, options);
     check_motion(shared.camera, options);
     check_format(shared, options);
     refuse_if(is_of_farm(shared.progress) && (options.stats == "-" || options.output == "-"),

@@ -43,6 +43,16 @@ ShardFrames::ShardFrames(FrameList frames, const Shard& shard)
 
 int ShardFrames::operator[](std::size_t i) const { return frames_[index_ + i * count_]; }
 
+PixelRect tile_rect(const TileGrid& tiles, int tile, int width, int height) {
+    const auto edge = [](int pixels, int place, int count) {
+        return static_cast<int>(std::int64_t{pixels} * place / count);
+    };
+    const int column = tile % tiles.columns, row = tile / tiles.columns;
+    const int x = edge(width, column, tiles.columns), y = edge(height, row, tiles.rows);
+    return {x, y, edge(width, column + 1, tiles.columns) - x,
+            edge(height, row + 1, tiles.rows) - y};
+}
+
 bool has_frame_pattern(const std::filesystem::path& file) {
     return file.filename().string().find('#') != std::string::npos;
 }

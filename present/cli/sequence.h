@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "host/picture/crop.h"
+
 namespace kilolux {
 
 /// Frames first, first + step, ... up to last, which is one of them.
@@ -64,6 +66,16 @@ class ShardFrames {
     std::size_t count_;
     std::size_t size_;
 };
+
+/// A picture's parts, `columns` beside each other and `rows` of them.
+struct TileGrid {
+    int columns = 1;
+    int rows = 1;
+    bool operator==(const TileGrid&) const = default;
+};
+
+/// The pixels of a tile of a picture; tiles are counted from the left in each row, from the top.
+PixelRect tile_rect(const TileGrid& tiles, int tile, int width, int height);
 
 /// Whether the file name holds a run of '#' that stands for the frame number.
 bool has_frame_pattern(const std::filesystem::path& file);

@@ -85,8 +85,9 @@ bool is_made(const WantedPicture& wanted) {
 WantedVideo wanted_video(const RenderOptions& options) {
     const RenderSettings& settings = options.shared.settings;
     const OutputOptions& out = options.output;
+    const auto [width, height] = written_size(settings, out.crop);
     return {.file = out.output,
-            .format = {settings.width, settings.height, out.frames_per_second},
+            .format = {width, height, out.frames_per_second},
             .frames = out.frames ? out.frames->size() : 1,
             .note = options.command};
 }

@@ -119,6 +119,9 @@ ImageOptions image_options(const RenderOptions& options, const RenderedPicture& 
     const bool for_the_eye = is_for_the_eye(picture.task.file);
     ImageOptions image{out.encoding};
     image.alpha = picture.alpha;
+    image.crop = picture.task.crop;
+    image.full_width = options.shared.settings.width;
+    image.full_height = options.shared.settings.height;
     if (for_the_eye && wants_own_display(options)) {
         RenderSettings settings = options.shared.settings;
         settings.background = options.shared.shown_background;
@@ -162,7 +165,7 @@ FrameRequest request_of(const RenderOptions& options, const FrameRequest& asked)
     want.display = for_the_eye || !out.reference.empty();
     want.radiance = !for_the_eye || own_display || !out.reference.empty();
     want.shown_light = own_display;
-    want.strip_makers = can_write_strips(options) ? 1 : 0;
+    want.strip_makers = can_write_strips(options) || out.crop || out.tiles ? 1 : 0;
     want.counts =
         !out.stats.empty() || std::ranges::find(want.aovs, "light-count") != want.aovs.end();
     return want;

@@ -27,6 +27,7 @@ struct RenderOptions {
     BudgetOptions budget;
     bool has_alpha = false;  // the picture: see wants_alpha()
     std::string command{};   // picture_command() of what was asked for, and inputs_comment()
+    std::vector<std::string> tile_commands{};  // the same of each tile
     bool operator==(const RenderOptions&) const = default;
 };
 
@@ -39,6 +40,8 @@ struct PictureTask {
     std::filesystem::path file;
     std::filesystem::path reference;   // empty: none
     std::filesystem::path difference;  // empty: none
+    std::optional<PixelRect> crop{};   // none: the whole picture
+    std::string command{};             // that makes it: RenderOptions::command
 };
 
 /// A picture that is rendered, until it is written. Then its frame goes to the spares.

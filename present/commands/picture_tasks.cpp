@@ -33,16 +33,16 @@ namespace fs = std::filesystem;
 std::string noted_time(double time) { return text_of(time) + " s"; }
 
 // The command as a picture notes it: an automatic exposure is that of a sequence's first frame.
-std::string noted_command(const RenderOptions& options) {
+std::string noted_command(const RenderOptions& options, const std::string& command) {
     const auto& frames = options.output.frames;
-    if (!options.shared.automatic_exposure || !frames) return options.command;
-    return fmt::format("{} # exposed by frame {}", options.command, frames->first());
+    if (!options.shared.automatic_exposure || !frames) return command;
+    return fmt::format("{} # exposed by frame {}", command, frames->first());
 }
 
 ImageNotes notes_of(const RenderOptions& options, const DeviceInfo& device, const Camera& camera,
-                    const FrameRecord& record) {
+                    const FrameRecord& record, const PictureTask& task) {
     ImageNotes notes = picture_notes(options.shared, device, record.stats);
-    notes.strings.emplace_back("command", noted_command(options));
+    notes.strings.emplace_back("command", task.command);
     std::erase_if(notes.strings, [](const auto& entry) { return entry.first == "time"; });
     notes.strings.emplace_back("time", noted_time(record.time));
     if (record.comparison) {
@@ -90,8 +90,8 @@ FrameRecord render_task(const RenderOptions& options, SceneRenderer& pictures,
     const PictureTask& task = picture.task;
     std::optional<Reference> reference;
     if (!task.reference.empty()) {
-        const RenderSettings& settings = pictures.renderer().settings();
-        require_reference_size(task.reference, settings.width, settings.height);
+        const auto [width, height] = written_size(pictures.renderer().settings(), task.crop);
+        require_reference_size(task.reference, width, height);
         reference.emplace(task.reference);
     }
     make(picture);
@@ -104,7 +104,8 @@ FrameRecord render_task(const RenderOptions& options, SceneRenderer& pictures,
     if (!task.difference.empty()) picture.difference = reference->difference(frame);
     if (options.shared.show_error) frame.display = reference->error_map(frame).rgba;
     note_layers(options, frame, task.file);
-    picture.notes = notes_of(options, pictures.renderer().device(), pictures.camera(), record);
+    picture.notes =
+        notes_of(options, pictures.renderer().device(), pictures.camera(), record, task);
     return record;
 }
 
@@ -162,7 +163,7 @@ FrameRecord write_strips(const RenderOptions& options, SceneRenderer& pictures,
                         camera = pictures.camera()](const RenderedPicture& first) {
         note_layers(options, first.frame, task.file);
         record.stats = first.frame.stats;
-        ImageNotes out = notes_of(options, device, camera, record);
+        ImageNotes out = notes_of(options, device, camera, record, task);
         if (helpers != nullptr) note_devices(out, helpers->shares());
         return out;
     };
@@ -197,14 +198,15 @@ void make_picture(const Job& job, SceneRenderer& pictures, DeviceShare& share, s
     if (job.tasks.is_done(picture->task)) {
         return job.queue.deliver(i, [&job] { job.files.skip(); });
     }
-    if (pictures.renderer().strips().size() > 1) return make_strips(job, pictures, share, i);
+    if (!picture->task.crop && pictures.renderer().strips().size() > 1)
+        return make_strips(job, pictures, share, i);
     FrameRecord record = render_task(job.options, pictures, *picture, [&](RenderedPicture& made) {
         const PictureTask& task = made.task;
-        made.frame = on_device([&] { return pictures.render(task.time, task.frame); });
+        made.frame = on_device([&] { return pictures.render(task.time, task.frame, task.crop); });
         made.spares = pictures.renderer().spare_frames();
         if (!job.options.has_alpha) return;
-        made.alpha =
-            on_device([&] { return pictures.coverage(made.frame, task.time, task.frame); });
+        made.alpha = on_device(
+            [&] { return pictures.coverage(made.frame, task.time, task.frame, task.crop); });
     });
     if (i == job.first) advise(pictures, record);
     if (job.measures_devices) pictures.fill_limits(record);
@@ -277,23 +279,43 @@ std::vector<std::string> all_like_the_best(bool mixed) {
 PictureTasks::PictureTasks(const RenderOptions& options) : options_(options) {
     const OutputOptions& out = options.output;
     if (out.frames) frames_.emplace(*out.frames, out.shard);
+    if (out.tiles) {
+        const int count = out.tiles->columns * out.tiles->rows;
+        frames_.emplace(FrameRange{0, count - 1}, out.shard);
+    }
     has_video_ = out.skip_existing && is_video(out.output) && is_made(wanted_video(options));
 }
 
 PictureTask PictureTasks::operator[](std::size_t i) const {
     const OutputOptions& out = options_.output;
     const double time = options_.shared.time;
-    if (!frames_) return {0, time, out.output, out.reference, out.difference};
-    const int frame = (*frames_)[i];
-    return {frame, time + frame / out.frames_per_second, frame_file(out.output, frame),
-            frame_file(out.reference, frame), frame_file(out.difference, frame)};
+    PictureTask task{0,
+                     time,
+                     out.output,
+                     out.reference,
+                     out.difference,
+                     out.crop,
+                     noted_command(options_, options_.command)};
+    if (!frames_) return task;
+    const int number = (*frames_)[i];
+    task.frame = number;
+    for (fs::path* file : {&task.file, &task.reference, &task.difference})
+        *file = frame_file(*file, number);
+    if (out.tiles) {
+        const RenderSettings& s = options_.shared.settings;
+        task.crop = tile_rect(*out.tiles, number, s.width, s.height);
+        task.command = options_.tile_commands[static_cast<std::size_t>(number)];
+    } else {
+        task.time += number / out.frames_per_second;
+    }
+    return task;
 }
 
 bool PictureTasks::is_done(const PictureTask& task) const {
     if (is_video(task.file)) return has_video_;
-    const RenderSettings& s = options_.shared.settings;
+    const auto [width, height] = written_size(options_.shared.settings, task.crop);
     return options_.output.skip_existing &&
-           is_made({task.file, s.width, s.height, noted_command(options_), noted_time(task.time)});
+           is_made({task.file, width, height, task.command, noted_time(task.time)});
 }
 
 std::size_t PictureTasks::first_to_do() const {

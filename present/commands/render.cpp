@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <utility>
 
 #include "host/base/error.h"
 #include "host/base/log.h"
@@ -53,8 +54,8 @@ void check_files(const RenderOptions& options, const PictureTasks& tasks,
         const fs::path reference = tasks[i].reference;
         if (!fs::exists(reference)) throw Error(reference.string() + ": no such reference");
     }
-    const RenderSettings& settings = options.shared.settings;
-    require_reference_size(first.reference, settings.width, settings.height);
+    const auto [width, height] = written_size(options.shared.settings, first.crop);
+    require_reference_size(first.reference, width, height);
 }
 
 // Says which options change only what a display shows.
@@ -127,7 +128,7 @@ void render_from(RenderOptions& options, const PictureTasks& tasks, std::size_t 
     FirstPicture start{request_of(options, options.shared.settings.want), first.time, first.frame,
                        camera};
     DeviceHelpers* helpers = nullptr;  // of a single picture
-    if (!more_devices.empty() && tasks.size() - begin == 1) {
+    if (!more_devices.empty() && tasks.size() - begin == 1 && !first.crop) {
         start.want.strip_makers *= static_cast<int>(1 + more_devices.size());
         start.on_lit = [&](const Scene& scene,
                            const RenderSettings& settings) -> std::shared_ptr<void> {
@@ -159,21 +160,37 @@ void render_from(RenderOptions& options, const PictureTasks& tasks, std::size_t 
                         : render_tasks(options, tasks, begin, pictures, start, more_devices));
 }
 
+// The command of the picture, and of each of its tiles as a crop.
+void note_commands(RenderOptions& options) {
+    options.command = picture_command(options);
+    if (!options.output.tiles) return;
+    RenderOptions one = options;
+    const TileGrid tiles = *std::exchange(one.output.tiles, std::nullopt);
+    const RenderSettings& s = options.shared.settings;
+    for (int i = 0; i < tiles.columns * tiles.rows; ++i) {
+        one.output.crop = tile_rect(tiles, i, s.width, s.height);
+        options.tile_commands.push_back(picture_command(one));
+    }
+}
+
 void run_render(RenderOptions& options) {
     const OutputOptions& out = options.output;
     check_output_options(options.shared, out);
     const std::vector<std::string> more_devices = take_devices(options);
-    options.command = picture_command(options);
+    note_commands(options);
     options.has_alpha = wants_alpha(options);  // lighting the scene may change the background
     begin_command(options.shared, !out.reference.empty());
     check_budget(options.shared, options.budget);
-    options.command += inputs_comment(options);
+    const std::string inputs = inputs_comment(options);
+    options.command += inputs;
+    for (std::string& command : options.tile_commands) command += inputs;
     if (!out.shard.variable.empty())
         note(fmt::format("shard {} by {}", text_of(out.shard), out.shard.variable));
     const PictureTasks tasks(options);
     if (tasks.size() == 0) {
-        return note(fmt::format("nothing to render: shard {} has none of the frames {}",
-                                text_of(out.shard), text_of(*out.frames)));
+        return note(fmt::format(
+            "nothing to render: shard {} has none of the {}", text_of(out.shard),
+            out.tiles ? "tiles " + text_of(*out.tiles) : "frames " + text_of(*out.frames)));
     }
     const std::size_t begin = tasks.first_to_do();
     if (begin == tasks.size()) return note("nothing to render: every file is there");

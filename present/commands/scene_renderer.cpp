@@ -100,15 +100,16 @@ void SceneRenderer::place(double time, int frame) {
     camera_ = camera_at_(scene_.scene(), frame, time);
 }
 
-Frame SceneRenderer::render(double time, int frame) {
+Frame SceneRenderer::render(double time, int frame, const std::optional<PixelRect>& crop) {
     place(time, frame);
-    return renderer_->render(camera_, time);
+    return crop ? renderer_->render_crop(camera_, time, *crop) : renderer_->render(camera_, time);
 }
 
-std::vector<float> SceneRenderer::coverage(const Frame& picture, double time, int frame) {
+std::vector<float> SceneRenderer::coverage(const Frame& picture, double time, int frame,
+                                           const std::optional<PixelRect>& crop) {
     const RenderSettings wanted = renderer_->settings();
     renderer_->change(before_white(wanted));
-    const Frame white = render(time, frame);
+    const Frame white = render(time, frame, crop);
     renderer_->change(wanted);
     return coverage_of(picture, white);
 }

@@ -55,11 +55,12 @@ class SceneRenderer {
     /// Scene and camera of the picture at `time` [s].
     void place(double time, int frame);
 
-    /// The picture at `time` [s].
-    Frame render(double time, int frame = 0);
+    /// The picture at `time` [s], or its pixels of `crop`.
+    Frame render(double time, int frame = 0, const std::optional<PixelRect>& crop = {});
 
     /// coverage_of() of the last render(), by the same picture before a white background.
-    std::vector<float> coverage(const Frame& picture, double time, int frame);
+    std::vector<float> coverage(const Frame& picture, double time, int frame,
+                                const std::optional<PixelRect>& crop = {});
 
     /// Takes `next` in place of the present options, but for the scene. `relights`: takes its
     /// lights, too. When it throws, nothing changes.

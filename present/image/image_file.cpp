@@ -120,8 +120,11 @@ constexpr std::array kRec709 = {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127
 void describe_camera(ImageLayout& layout, const Camera& camera) {
     glm::dmat4 view_from_world(glm::transpose(camera.world_from_view));
     view_from_world[3] = glm::dvec4(glm::dmat3(view_from_world) * -camera.position, 1.0);
+    const bool is_part = layout.full_width > 0;
     const glm::dmat4 clip_from_world =
-        clip_from_view(camera, layout.width, layout.height) * view_from_world;
+        clip_from_view(camera, is_part ? layout.full_width : layout.width,
+                       is_part ? layout.full_height : layout.height) *
+        view_from_world;
     layout.attributes.emplace_back("worldToCamera", glm::mat4(view_from_world));
     layout.attributes.emplace_back("worldToNDC", glm::mat4(clip_from_world));
 }
@@ -163,6 +166,12 @@ bool is_uint(const Layer& layer, const ImageOptions& options) {
 // The metadata and the channels of an EXR file: colour, then every layer's, in order.
 void add_linear(ImageLayout& layout, const Frame& frame, const ImageNotes& notes,
                 const ImageOptions& options) {
+    if (options.crop) {
+        layout.x = options.crop->x;
+        layout.y = options.crop->y;
+        layout.full_width = options.full_width;
+        layout.full_height = options.full_height;
+    }
     const SampleType colour = options.half_colour ? SampleType::half : SampleType::float32;
     add_channels(layout, {"R", "G", "B"}, colour);
     if (!options.alpha.empty()) add_channels(layout, {"A"}, colour);

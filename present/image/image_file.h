@@ -12,6 +12,7 @@
 
 #include "host/base/system/atomic_write.h"
 #include "host/images/images.h"
+#include "host/picture/crop.h"
 #include "host/picture/frame.h"
 #include "host/scene/camera.h"
 
@@ -75,6 +76,10 @@ struct ImageOptions : Encoding {
     // channel. Display colours are those of the covering surfaces, EXR's are multiplied by alpha.
     std::vector<float> alpha{};
     std::vector<float> display{};  // RGB from 0 to 1 in place of Frame::display; 16 bits need it
+    // Where the frame's pixels are in a picture of which they are a part; EXR tells it.
+    std::optional<PixelRect> crop{};
+    int full_width = 0;   // of that picture [pixel]
+    int full_height = 0;  // [pixel]
 };
 
 /// Whether floats hold a layer's ids exactly, and those that it may have elsewhere.

@@ -76,6 +76,8 @@ const std::map<std::string, std::string>& special_values() {
         {"--bits", "16"},
         {"--frames", "3:9"},
         {"--shard", "1/4"},
+        {"--crop", "3,2,30,20"},
+        {"--tiles", "2x3"},
         {"--stats", "-"},
         {"--ocio-view", "Film"},
         {"--ocio-display", "P3"},
@@ -263,17 +265,18 @@ TEST(Settings, ComeFromConfigFiles) {
 
 // A picture's note holds the options that change it, and --skip-existing refuses it by them.
 TEST(Settings, AreInTheNoteOfAPictureThatTheyChange) {
-    const Names of_no_picture = {"--strict",        "--allow-outside-paths",
-                                 "--quiet",         "--verbose",
-                                 "--device",        "--no-reuse",
-                                 "--max-memory",    "--lanes",
-                                 "--output",        "--stats",
-                                 "--frames",        "--fps",
-                                 "--shard",         "--exr-compression",
-                                 "--png-level",     "--metric",
-                                 "--threshold",     "--reference",
-                                 "--difference",    "--skip-existing",
-                                 "--mixed-devices", "--progress"};
+    const Names of_no_picture = {"--strict",          "--allow-outside-paths",
+                                 "--quiet",           "--verbose",
+                                 "--device",          "--no-reuse",
+                                 "--max-memory",      "--lanes",
+                                 "--output",          "--stats",
+                                 "--frames",          "--fps",
+                                 "--shard",           "--tiles",
+                                 "--exr-compression", "--png-level",
+                                 "--metric",          "--threshold",
+                                 "--reference",       "--difference",
+                                 "--skip-existing",   "--mixed-devices",
+                                 "--progress"};
     const TemporaryFolder folder;
     const std::string before = picture_command(initial<RenderOptions>());
     Frame frame;

@@ -52,6 +52,76 @@ void expect_same_in_strips(const Scene& scene, const RenderSettings& settings) {
     }
 }
 
+// A pixel of a frame's values, `channels` each, whose first pixel is (x, y) of the picture.
+template <typename T>
+std::vector<T> pixels_of(const std::vector<T>& values, int width, const PixelRect& rect,
+                         std::size_t channels) {
+    std::vector<T> out;
+    for (int y = rect.y; y < rect.y + rect.height; ++y) {
+        const auto begin =
+            values.begin() + static_cast<std::ptrdiff_t>(channels) * (y * width + rect.x);
+        out.insert(out.end(), begin, begin + static_cast<std::ptrdiff_t>(channels) * rect.width);
+    }
+    return out;
+}
+
+void expect_same_in_crops(const Scene& scene, const RenderSettings& settings) {
+    Renderer renderer(scene, settings);
+    const Camera camera = first_camera(scene);
+    const Frame whole = renderer.render(camera, 0.5);
+    for (const PixelRect& rect :
+         {PixelRect{0, 0, 150, 131}, PixelRect{17, 33, 5, 70}, PixelRect{149, 130, 1, 1}}) {
+        const Frame crop = renderer.render_crop(camera, 0.5, rect);
+        ASSERT_EQ(crop.width, rect.width);
+        ASSERT_EQ(crop.height, rect.height);
+        EXPECT_TRUE(crop.radiance == pixels_of(whole.radiance, 150, rect, 3)) << rect.y;
+        EXPECT_TRUE(crop.display == pixels_of(whole.display, 150, rect, 4)) << rect.y;
+        ASSERT_EQ(crop.aovs.size(), whole.aovs.size());
+        for (std::size_t i = 0; i < whole.aovs.size(); ++i) {
+            const Layer& layer = whole.aovs[i];
+            const std::size_t channels = layer.channels.size();
+            EXPECT_TRUE(crop.aovs[i].values ==
+                        pixels_of(layer.values, 150, rect, layer.is_id() ? 0 : channels));
+            EXPECT_TRUE(crop.aovs[i].ids ==
+                        pixels_of(layer.ids, 150, rect, layer.is_id() ? channels : 0));
+        }
+        EXPECT_EQ(crop.stats.lights_given, whole.stats.lights_given);
+    }
+}
+
+// Also where bloom or a view needs the whole picture, and through blended surfaces.
+TEST(Crops, HaveTheBitsOfThePicture) {
+    Scene scene = grid_with_every_light();
+    RenderSettings settings = small_settings(150, 131, 400);
+    settings.want.aovs = {"depth", "normal", "light-count"};
+    settings.band_rows = FINE_TILE;
+    expect_same_in_crops(scene, settings);
+    settings.want.aovs.clear();
+    settings.bloom = 0.5f;
+    expect_same_in_crops(scene, settings);
+    settings.bloom = 0.0f;
+    settings.want.view = ViewKind::normal;
+    expect_same_in_crops(scene, settings);
+    settings.want.view = ViewKind::lit;
+    settings.auto_samples = {.on = true, .error = 0.01, .most = 8};
+    expect_same_in_crops(scene, settings);
+    settings.auto_samples = {};
+    scene.materials[0].alpha_mode = AlphaMode::blend;
+    scene.materials[0].base_color.w = 0.5f;
+    expect_same_in_crops(scene, settings);
+}
+
+TEST(Crops, LieWithinThePicture) {
+    const Scene scene = make_generated_scene("grid");
+    Renderer renderer(scene, small_settings(64, 36, 10));
+    for (const PixelRect& rect : {PixelRect{-1, 0, 4, 4}, PixelRect{0, 33, 4, 4},
+                                  PixelRect{61, 0, 4, 4}, PixelRect{0, 0, 0, 4}}) {
+        EXPECT_TRUE(contains(
+            message_of<Error>([&] { renderer.render_crop(first_camera(scene), 0.0, rect); }),
+            "of a picture of 64x36 pixels"));
+    }
+}
+
 TEST(Strips, HaveTheBitsOfThePicture) {
     const Scene scene = grid_with_every_light();
     RenderSettings settings = small_settings(150, 131, 400);

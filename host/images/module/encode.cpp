@@ -45,6 +45,12 @@ OIIO::ImageSpec spec_of(const ImageLayout& layout) {
         mixed |= channel.type != first;
     }
     if (!mixed) spec.channelformats.clear();
+    if (layout.full_width > 0) {
+        spec.x = layout.x;
+        spec.y = layout.y;
+        spec.full_width = layout.full_width;
+        spec.full_height = layout.full_height;
+    }
     spec.attribute("oiio:UnassociatedAlpha", 1);
     for (const auto& [name, value] : layout.attributes) set(spec, name, value);
     return spec;
@@ -115,6 +121,7 @@ class ExrRows {
     ExrRows(std::string name, const OIIO::ImageSpec& spec, OIIO::Filesystem::IOProxy& proxy)
         : name_(std::move(name)), spec_(spec), proxy_(proxy), table_end_(proxy.tell()) {}
 
+    /// `begin`: in the picture that the file may hold a part of.
     void write(int begin, int rows, const unsigned char* pixels, std::size_t pixel_stride) {
         constexpr std::size_t kPiece = 4u << 20;  // [byte]
         const std::size_t row_bytes = static_cast<std::size_t>(spec_.width) * pixel_stride;
@@ -166,6 +173,8 @@ class ExrRows {
 
     Blocks blocks_of(int rows, const unsigned char* pixels, std::size_t pixel_stride) const {
         OIIO::ImageSpec spec = spec_;
+        spec.x = spec.y = 0;
+        spec.full_width = spec.width;
         spec.height = spec.full_height = rows;
         Blocks out;
         out.bytes.reserve(spec.image_bytes(true));  // growing would copy: few pieces are larger
@@ -213,6 +222,7 @@ class FileWriter : public ImageWriter {
           proxy_(file),
           out_(create_output(name, format, proxy_)) {
         check(out_->open("memory." + format, spec_));
+        next_ = spec_.y;
         if (has_exr_rows(format, spec_)) exr_.emplace(name_, spec_, proxy_);
     }
 
@@ -270,7 +280,7 @@ std::vector<unsigned char> encode_pixels(const std::string& name, const std::str
     if (!out->open("memory." + format, spec)) fail(name, out->geterror());
     std::optional<ExrRows> exr;
     if (has_exr_rows(format, spec)) {
-        exr.emplace(name, spec, memory).write(0, spec.height, pixels.data(), pixel_stride);
+        exr.emplace(name, spec, memory).write(spec.y, spec.height, pixels.data(), pixel_stride);
     } else if (!out->write_image(type_in(spec), pixels.data(),
                                  static_cast<OIIO::stride_t>(pixel_stride))) {
         fail(name, out->geterror());

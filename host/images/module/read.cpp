@@ -37,6 +37,12 @@ ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& where) {
         const auto* values = static_cast<const float*>(found->data());
         out.chromaticities.assign(values, values + 8);
     }
+    if (spec.full_width != spec.width || spec.full_height != spec.height) {
+        out.x = spec.x - spec.full_x;
+        out.y = spec.y - spec.full_y;
+        out.full_width = spec.full_width;
+        out.full_height = spec.full_height;
+    }
     out.associated_alpha = spec.get_int_attribute("oiio:UnassociatedAlpha", 0) == 0;
     return out;
 }
