@@ -80,5 +80,6 @@ void add_report_command(Program& program);
 void add_certify_command(Program& program);
 void add_info_command(Program& program);
 void add_export_command(Program& program);
+void add_assemble_command(Program& program);
 
 }  // namespace kilolux

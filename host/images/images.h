@@ -35,7 +35,8 @@ struct ImageLayout {
     int width = 0;                       // [pixel]
     int height = 0;                      // [pixel]
     std::vector<ImageChannel> channels;  // in the order of a pixel's samples
-    // By OpenImageIO's names. Of a file that is read: texts whose names begin with "kilolux:".
+    // By OpenImageIO's names. Of a file that is read: texts whose names begin with "kilolux:", and
+    // what EXR has of the camera and of compression.
     std::vector<std::pair<std::string, ImageAttribute>> attributes{};
     bool associated_alpha = false;  // of a file that is read: its colours are multiplied by alpha
     // Of a file that is read: x and y of red, green, blue and white (CIE 1931); else empty.
@@ -99,6 +100,10 @@ class ImageReader {
     /// Reads the channels [begin, end) of all pixels, converted to `type` (integers to 0..1 and
     /// back), to `out`, `stride` bytes from a pixel to the next. Throws Error.
     virtual void read(int begin, int end, SampleType type, void* out, std::size_t stride) = 0;
+
+    /// Reads all channels of `rows` rows from row `first` on, as they are stored, to `out`,
+    /// `row_stride` bytes from a row to the next. Throws Error.
+    virtual void read_rows(int first, int rows, void* out, std::size_t row_stride) = 0;
 };
 
 /// Colours as stored. Throws Error "<file>: cannot read the image: <OpenImageIO's reason>".

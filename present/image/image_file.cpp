@@ -298,6 +298,37 @@ FileRows file_rows(const std::filesystem::path& file, int height, const Frame& f
     return out;
 }
 
+ImageLayout layout_of_whole(const std::filesystem::path& file, const ImageLayout& part, int width,
+                            int height, const std::string& without) {
+    ImageLayout out{width, height, {}};
+    ImageOptions options;
+    if (holds_layers(file)) {
+        Frame colourless;
+        add_linear(out, colourless, {}, options);
+        out.channels = part.channels;
+    } else {
+        options.bits = part.channels.front().type == SampleType::uint16 ? 16 : 8;
+        if (part.channels.size() > 3) options.alpha = {1.0f};
+        add_display(out, file, options);
+    }
+    out.attributes.emplace_back("Software", "kilolux " + version());
+    for (const auto& [name, value] : part.attributes) {
+        ImageAttribute kept = value;
+        if (auto* text = std::get_if<std::string>(&kept)) {
+            const std::size_t at = text->find(without);
+            if (!without.empty() && at != std::string::npos) text->erase(at, without.size());
+        }
+        std::erase_if(out.attributes, [&](const auto& known) { return known.first == name; });
+        out.attributes.emplace_back(name, std::move(kept));
+    }
+    return out;
+}
+
+bool are_of_lossless_format(const std::filesystem::path& a, const std::filesystem::path& b) {
+    const std::string_view format = format_of(a).plugin;
+    return format == format_of(b).plugin && can_stream(a) && format != "jpeg";
+}
+
 bool can_stream(const std::filesystem::path& file) {
     return format_of(file).notes != NoteForm::comments;  // which are inserted into the bytes
 }

@@ -2,6 +2,7 @@
 #include <OpenImageIO/filesystem.h>
 
 #include <algorithm>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <string_view>
@@ -28,8 +29,12 @@ ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& where) {
     }
     for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
         const std::string name = attribute.name().string();
-        if (name.starts_with("kilolux:") || name == "ImageDescription") {
+        if (name.starts_with("kilolux:") || name == "ImageDescription" || name == "compression") {
             out.attributes.emplace_back(name, attribute.get_string());
+        } else if (attribute.type() == OIIO::TypeDesc::TypeMatrix && name.starts_with("worldTo")) {
+            glm::mat4 matrix;
+            std::memcpy(&matrix, attribute.data(), sizeof matrix);
+            out.attributes.emplace_back(name, matrix);
         }
     }
     const OIIO::TypeDesc eight_floats(OIIO::TypeDesc::FLOAT, 8);
@@ -94,6 +99,17 @@ class Reader : public ImageReader {
             throw Error(where_ + input_->geterror());
         }
         if (colors_ && begin < 3) colors_->read(begin, std::min(end, 3), type, out, stride);
+    }
+
+    void read_rows(int first, int rows, void* out, std::size_t row_stride) override {
+        const OIIO::ImageSpec& spec = input_->spec();
+        const OIIO::TypeDesc type =
+            spec.channelformats.empty() ? spec.format : OIIO::TypeDesc(OIIO::TypeUnknown);
+        if (!input_->read_scanlines(0, 0, spec.y + first, spec.y + first + rows, 0, 0,
+                                    spec.nchannels, type, out, OIIO::AutoStride,
+                                    static_cast<OIIO::stride_t>(row_stride))) {
+            throw Error(where_ + input_->geterror());
+        }
     }
 
  private:

@@ -39,7 +39,7 @@ std::vector<float> values_in(const FloatImage& image, const PixelRect& rect) {
 TEST(RenderCrop, TilesAreThePictureByShards) {
     const TemporaryFolder folder;
     const TileGrid grid{3, 2};
-    for (const char* extension : {".exr", ".png"}) {
+    for (const char* extension : {".exr", ".png", ".tif"}) {
         const fs::path tiles = folder / (std::string("t.#") + extension);
         const fs::path whole = folder / (std::string("whole") + extension);
         ASSERT_EQ(render(whole, {}).code, 0);
@@ -66,6 +66,12 @@ TEST(RenderCrop, TilesAreThePictureByShards) {
             EXPECT_EQ(layout.y, has_window ? rect.y : 0);
         }
         EXPECT_EQ(pixels, kWidth * kHeight);
+        std::vector<std::string> words = {"assemble", "-o",
+                                          (folder / "joined").string() + extension};
+        for (int i = 0; i < 6; ++i) words.push_back(frame_file(tiles, 5 - i).string());
+        const ChildResult joined = run_kilolux(words);
+        EXPECT_EQ(joined.code, 0) << joined.err;
+        EXPECT_TRUE(text_of_file(words[2]) == text_of_file(whole)) << extension;
         const ChildResult again =
             render(tiles, {"--tiles", "3x2", "--skip-existing", "--shard", "1/2"});
         EXPECT_TRUE(contains(again.err, "nothing to render: every file is there")) << again.err;
@@ -86,6 +92,36 @@ TEST(RenderCrop, ATileIsACrop) {
         render(folder / "crop.exr", {"--crop", "34,25,35,25", "--skip-existing"});
     EXPECT_EQ(other.code, 1);
     EXPECT_TRUE(contains(other.err, "holds another picture: its command")) << other.err;
+}
+
+TEST(RenderCrop, OnlyTilesOfOnePictureAreJoined) {
+    const TemporaryFolder folder;
+    const auto file = [&](const char* name) { return (folder / name).string(); };
+    ASSERT_EQ(render(file("t.#.png"), {"--tiles", "2x2"}).code, 0);
+    ASSERT_EQ(render(file("other.png"), {"--crop", "35,25,35,25", "--ambient", "1"}).code, 0);
+    ASSERT_EQ(render(file("between.png"), {"--crop", "30,25,35,25"}).code, 0);
+    ASSERT_EQ(render(file("whole.png"), {}).code, 0);
+    const struct {
+        std::vector<const char*> tiles;
+        const char* line;
+    } cases[] = {
+        {{"t.0.png", "t.1.png", "t.2.png", "other.png"}, "are of other pictures"},
+        {{"t.0.png", "t.1.png", "t.2.png", "between.png"}, "the tiles before it end at 35,25"},
+        {{"t.0.png", "t.1.png", "t.2.png"}, "is 35 pixels wide, the first 70"},
+        {{"t.1.png", "t.2.png", "t.3.png"}, "the tiles before it end at 0,0"},
+        {{"t.0.png", "t.0.png"}, "the tiles before it end at 35,0"},
+        {{"whole.png"}, "has no note of a --crop"},
+        {{"t.9.png"}, "t.9.png"}};
+    for (const auto& c : cases) {
+        std::vector<std::string> words = {"assemble", "-o", file("joined.png")};
+        for (const char* tile : c.tiles) words.push_back(file(tile));
+        const ChildResult result = run_kilolux(words);
+        EXPECT_EQ(result.code, 1) << result.err;
+        EXPECT_TRUE(contains(result.err, c.line)) << result.err;
+        EXPECT_FALSE(fs::exists(file("joined.png")));
+    }
+    EXPECT_TRUE(contains(run_kilolux({"assemble", "-o", file("joined.exr"), file("t.0.png")}).err,
+                         "without loss"));
 }
 
 TEST(RenderCrop, RefusesWhatIsNoPart) {
