@@ -40,6 +40,7 @@ void copy_pixels(std::vector<T>& out, const std::vector<T>& from, std::size_t va
 
 void add_crop(Frame& out, const PixelRect& rect, const Frame& rows) {
     const RowsToCut cut{rect, rows.width, rows.first_row, rows.height};
+    const bool is_first = out.width == 0;
     out.width = rect.width;
     out.height = rect.height;
     copy_pixels(out.radiance, rows.radiance, 3, cut);
@@ -55,7 +56,11 @@ void add_crop(Frame& out, const PixelRect& rect, const Frame& rows) {
         copy_pixels(layer.values, from.values, from.channels.size(), cut);
         copy_pixels(layer.ids, from.ids, from.channels.size(), cut);
     }
-    add_rows(out.stats, rows.stats);
+    if (is_first) {
+        out.stats = rows.stats;
+    } else {
+        add_rows(out.stats, rows.stats);
+    }
 }
 
 }  // namespace kilolux

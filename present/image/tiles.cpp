@@ -9,7 +9,8 @@
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/base/text.h"
+#include "host/render/settings.h"
+#include "present/cli/option_values.h"
 #include "present/image/image_file.h"
 
 namespace kilolux {
@@ -27,6 +28,16 @@ struct Tile {
 };
 
 constexpr const char* kCrop = " --crop ";
+constexpr const char* kResolution = " --resolution ";
+
+// Of the whole picture, by its command.
+std::pair<int, int> noted_size(const std::string& command) {
+    const std::size_t at = command.find(kResolution);
+    if (at == std::string::npos) return {RenderSettings{}.width, RenderSettings{}.height};
+    const std::size_t begin = at + std::string_view(kResolution).size();
+    return parse_resolution("--resolution",
+                            command.substr(begin, command.find(' ', begin) - begin));
+}
 
 Tile open_tile(const fs::path& file) {
     Tile out{file, open_image(file), {}, "", ""};
@@ -35,16 +46,11 @@ Tile open_tile(const fs::path& file) {
     if (at == std::string::npos) {
         throw Error(file.string() + ": has no note of a --crop, so its place is unknown");
     }
-    const std::size_t end = std::min(out.command.find(' ', at + 8), out.command.size());
+    const std::size_t begin = at + std::string_view(kCrop).size();
+    const std::size_t end = std::min(out.command.find(' ', begin), out.command.size());
+    out.place = parse_crop("--crop", out.command.substr(begin, end - begin));
     out.crop = out.command.substr(at, end - at);
     out.command.erase(at, end - at);
-    std::vector<int> numbers;
-    const std::string text = out.crop.substr(8);
-    for (const std::string_view part : split(text, ',')) {
-        numbers.push_back(static_cast<int>(count_of(part).value_or(0)));
-    }
-    numbers.resize(4);
-    out.place = {numbers[0], numbers[1], numbers[2], numbers[3]};
     if (out.place.width == out.layout().width && out.place.height == out.layout().height)
         return out;
     throw Error(fmt::format("{}: has {}x{} pixels, and its note is{}", file.string(),
@@ -104,23 +110,18 @@ std::vector<TileRow> rows_of(std::vector<Tile> tiles) {
     return out;
 }
 
-void write_row(ImageStream& out, const ImageLayout& layout, const TileRow& row,
-               const std::function<void(int)>& on_rows) {
-    constexpr int kRows = 8 * kFileBlockRows;
-    const std::size_t pixel = layout.pixel_bytes();
-    const std::size_t stride = pixel * static_cast<std::size_t>(layout.width);
-    const int height = row.front().place.height;
-    for (int y = 0; y < height; y += kRows) {
-        FileRows part{layout, std::min(kRows, height - y)};
-        part.own.resize(stride * static_cast<std::size_t>(part.rows));
+// Reads rows [begin, end) of the picture to `pixels`.
+void read_rows(const std::vector<TileRow>& rows, int begin, int end, std::size_t pixel_bytes,
+               std::size_t stride, std::vector<unsigned char>& pixels) {
+    for (const TileRow& row : rows) {
+        const PixelRect& first = row.front().place;
+        const int from = std::max(begin, first.y), to = std::min(end, first.y + first.height);
+        if (from >= to) continue;
         for (const Tile& tile : row) {
-            tile.image->read_rows(
-                y, part.rows, &part.own[pixel * static_cast<std::size_t>(tile.place.x)], stride);
+            const std::size_t at = stride * static_cast<std::size_t>(from - begin) +
+                                   pixel_bytes * static_cast<std::size_t>(tile.place.x);
+            tile.image->read_rows(from - first.y, to - from, &pixels[at], stride);
         }
-        part.pixels = part.own;
-        part.pixel_stride = pixel;
-        out.write(part);
-        on_rows(part.rows);
     }
 }
 
@@ -142,16 +143,26 @@ void join_tiles(const fs::path& out, const std::vector<fs::path>& tiles,
     const std::vector<TileRow> rows = rows_of(std::move(opened));
     const Tile& first = rows.front().front();
     const PixelRect& last = rows.back().back().place;
-    const int height = last.y + last.height;
-    const ImageLayout layout =
-        layout_of_whole(out, first.layout(), last.x + last.width, height, first.crop);
+    const auto [width, height] = noted_size(first.command);
+    if (last.x + last.width != width || last.y + last.height != height) {
+        throw Error(
+            fmt::format("{}: is the last tile and ends at {},{}; the picture has {}x{} pixels",
+                        rows.back().back().file.string(), last.x + last.width, last.y + last.height,
+                        width, height));
+    }
+    const ImageLayout layout = layout_of_whole(out, first.layout(), width, height, first.crop);
+    const std::size_t pixel_bytes = layout.pixel_bytes();
+    const std::size_t stride = pixel_bytes * static_cast<std::size_t>(layout.width);
+    constexpr int kRows = 8 * kFileBlockRows;
     ImageStream file(out);
-    int done = 0;
-    for (const TileRow& row : rows) {
-        write_row(file, layout, row, [&](int count) {
-            done += count;
-            on_rows(static_cast<double>(done) / height);
-        });
+    for (int y = 0; y < height; y += kRows) {
+        FileRows part{layout, std::min(kRows, height - y)};
+        part.own.resize(stride * static_cast<std::size_t>(part.rows));
+        read_rows(rows, y, y + part.rows, pixel_bytes, stride, part.own);
+        part.pixels = part.own;
+        part.pixel_stride = pixel_bytes;
+        file.write(part);
+        on_rows(static_cast<double>(y + part.rows) / height);
     }
     file.commit();
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The four renderers against each other: lists must not change a picture.
+#include <fmt/format.h>
+
 #include <chrono>
 #include <cmath>
 
@@ -74,7 +76,7 @@ TEST(Paths, RowsOfStagesAreWithinTheFrame) {
             double sum = 0.0;
             for (const StageTime& stage : stats.stages) sum += stage.ms;
             fits = sum <= stats.frame_ms + kClocksMs && sum > 0.9 * stats.frame_ms;
-            seen += " " + std::to_string(sum) + " of " + std::to_string(stats.frame_ms);
+            seen += fmt::format(" {} of {} ms", sum, stats.frame_ms);
         }
         EXPECT_TRUE(fits) << static_cast<int>(kind) << seen;
     }

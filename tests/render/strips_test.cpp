@@ -103,7 +103,7 @@ TEST(Crops, HaveTheBitsOfThePicture) {
     settings.want.view = ViewKind::normal;
     expect_same_in_crops(scene, settings);
     settings.want.view = ViewKind::lit;
-    settings.auto_samples = {.on = true, .error = 0.01, .most = 8};
+    settings.auto_samples = {.on = true, .error = 0.01f, .most = 8};
     expect_same_in_crops(scene, settings);
     settings.auto_samples = {};
     scene.materials[0].alpha_mode = AlphaMode::blend;

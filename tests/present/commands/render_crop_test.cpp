@@ -108,6 +108,7 @@ TEST(RenderCrop, OnlyTilesOfOnePictureAreJoined) {
         {{"t.0.png", "t.1.png", "t.2.png", "other.png"}, "are of other pictures"},
         {{"t.0.png", "t.1.png", "t.2.png", "between.png"}, "the tiles before it end at 35,25"},
         {{"t.0.png", "t.1.png", "t.2.png"}, "is 35 pixels wide, the first 70"},
+        {{"t.0.png", "t.1.png"}, "ends at 70,25; the picture has 70x50 pixels"},
         {{"t.1.png", "t.2.png", "t.3.png"}, "the tiles before it end at 0,0"},
         {{"t.0.png", "t.0.png"}, "the tiles before it end at 35,0"},
         {{"whole.png"}, "has no note of a --crop"},
