@@ -93,6 +93,9 @@ class ImageReader {
     /// Reads the channels [begin, end) of all pixels, converted to `type` (integers to 0..1 and
     /// back), to `out`, `stride` bytes from a pixel to the next. Throws Error.
     virtual void read(int begin, int end, SampleType type, void* out, std::size_t stride) = 0;
+
+    /// Reads the last row of pixels: throws Error for a file that is cut off.
+    virtual void check_end() = 0;
 };
 
 /// Colours as stored. Throws Error "<file>: cannot read the image: <OpenImageIO's reason>".

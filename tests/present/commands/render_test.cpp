@@ -201,7 +201,7 @@ TEST(Render, SequencesInShardsThatGoOnWhereTheyStopped) {
     EXPECT_TRUE(contains(refusal({"--resolution", "32,16"}), "size"));
     EXPECT_TRUE(contains(refusal({"--light-seed", "9"}), "--light-seed 9"));
     EXPECT_TRUE(contains(refusal({"--time", "7"}), "--time 7"));
-    EXPECT_TRUE(contains(refusal({"--fps", "3"}), "time is '1.5 s', asked for is '1 s'"));
+    EXPECT_TRUE(contains(refusal({"--fps", "3"}), "time is '1.5 s', but '1 s' is asked for"));
     // Frame 5 alone at its time is the same picture: time comes from the frame's number.
     const fs::path alone = folder / "alone.exr";
     ASSERT_EQ(run_kilolux(small_render(alone, {"--time", "2.5", "-q"})).code, 0);
@@ -250,6 +250,20 @@ TEST(Render, FilesOfEveryFormatKnowTheirCommand) {
             << other.err;
         EXPECT_EQ(text_of_file(file), bytes);
         EXPECT_EQ(read_image(file).width, 48) << "the notes leave a file that can be read";
+        // Cut off in its notes, or in its pixels.
+        for (const std::size_t length : {std::size_t{40}, bytes.size() - 20}) {
+            write_text(file, bytes.substr(0, length));
+            const ChildResult cut = made("8");
+            EXPECT_EQ(cut.code, 0) << cut.err;
+            EXPECT_TRUE(cut.err.starts_with("kilolux: warning: " + file.string() +
+                                            ": cannot read the image: "))
+                << cut.err;
+            const std::string first_line = cut.err.substr(0, cut.err.find('\n'));
+            EXPECT_TRUE(first_line.ends_with("; it is made anew")) << cut.err;
+            EXPECT_EQ(cut.err.find("made anew"), cut.err.rfind("made anew")) << cut.err;
+            EXPECT_FALSE(contains(cut.err, "libpng")) << cut.err;
+            EXPECT_EQ(text_of_file(file), bytes) << extension << " of " << length;
+        }
     }
 }
 
