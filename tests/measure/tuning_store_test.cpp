@@ -21,6 +21,7 @@
 #include "tests/support/environment_variable.h"
 #include "tests/support/messages.h"
 #include "tests/support/paths.h"
+#include "tests/support/temporary_folder.h"
 
 namespace kilolux {
 namespace {
@@ -343,7 +344,7 @@ struct MeasuredFrames {
         std::ifstream context(folder / "bench.context.json");
         device = nlohmann::json::parse(context).at("context").at("device").at("name");
         for (const BenchRow& row : bench_rows(parse_csv(text_of_file(folder / "bench.csv")))) {
-            if (row.stage == kFrameStage)
+            if (row.stage == kFrameStage.name)
                 ms[{row.point.lights, row.point.resolution}] = row.ms.median;
         }
     }
