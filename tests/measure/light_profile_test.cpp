@@ -44,11 +44,12 @@ std::vector<glm::dvec3> directions() {
 std::vector<float> shares_on_device(const std::vector<glm::dvec3>& from_light,
                                     const std::vector<AimedProfile>& lights, uint light,
                                     const std::vector<float>& tables, int lanes) {
+    const Gpu gpu = test_gpu(lanes);
     std::vector<float> in;
     for (const int axis : {0, 1, 2}) {
         for (const glm::dvec3& d : from_light) in.push_back(static_cast<float>(-d[axis]));
     }
-    return run_probe<float>(test_gpu(lanes), {kHeaders, kProbe}, kCount, kCount, in,
+    return run_probe<float>(gpu, {kHeaders, kProbe}, kCount / lanes_of(gpu), kCount, in,
                             static_cast<uint>(kCount), lights, light, tables);
 }
 

@@ -8,10 +8,6 @@
 
 namespace kilolux {
 
-inline std::size_t lanes_of(const Gpu& gpu) {
-    return static_cast<std::size_t>(gpu.info.lane_width);
-}
-
 /// What `run` makes with kernels of one lane. Expects the same of the other lane_widths().
 template <typename Run>
 auto at_every_width(const Run& run) {

@@ -40,7 +40,8 @@ void main() {
 std::vector<uint> slices_of_device(const Gpu& gpu, const ClusterGrid& grid, std::vector<float> z) {
     const std::size_t count = z.size();
     z.resize(round_up(count, 16), 1.0f);
-    auto slices = run_probe<uint>(gpu, {kSliceHeaders, kSliceProbe}, z.size(), z.size(), grid, z);
+    auto slices = run_probe<uint>(gpu, {kSliceHeaders, kSliceProbe}, z.size() / lanes_of(gpu),
+                                  z.size(), grid, z);
     slices.resize(count);
     return slices;
 }

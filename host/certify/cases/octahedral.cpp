@@ -83,8 +83,9 @@ constexpr std::size_t kSpecialDirections = 52;
 std::vector<float4> decoded_by_device(const Gpu& gpu, std::vector<uint> codes) {
     const std::size_t count = codes.size();
     codes.resize(round_up(count, 16), 0u);
-    const auto planes = run_probe<float>(gpu, {kOctHeaders, kOctProbe}, codes.size(),
-                                         3 * codes.size(), codes, static_cast<uint>(codes.size()));
+    const auto planes =
+        run_probe<float>(gpu, {kOctHeaders, kOctProbe}, codes.size() / lanes_of(gpu),
+                         3 * codes.size(), codes, static_cast<uint>(codes.size()));
     std::vector<float4> normals;
     for (std::size_t i = 0; i < count; ++i) {
         normals.push_back(

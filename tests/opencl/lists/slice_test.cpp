@@ -36,7 +36,9 @@ std::vector<GridRequest> requests() {
 std::vector<uint> device_slices(int lanes, const ClusterGrid& grid, std::vector<float> z) {
     const std::size_t count = z.size();
     z.resize(round_up(count, 16), 1.0f);
-    auto slices = run_probe<uint>(test_gpu(lanes), {kHeaders, kProbe}, z.size(), z.size(), grid, z);
+    const Gpu gpu = test_gpu(lanes);
+    auto slices =
+        run_probe<uint>(gpu, {kHeaders, kProbe}, z.size() / lanes_of(gpu), z.size(), grid, z);
     slices.resize(count);
     return slices;
 }

@@ -83,6 +83,7 @@ std::vector<T> copy_of(std::span<const T> values) {
 
 ProbeResult probe_evaluate(const std::vector<SurfaceD>& surfaces, const Lighting& lighting,
                            int lanes) {
+    const Gpu gpu = test_gpu(lanes);
     const std::size_t count = round_up(surfaces.size(), 16);
     ProbeResult result;
     std::vector<float> in(19 * count, 0.5f);
@@ -97,8 +98,8 @@ ProbeResult probe_evaluate(const std::vector<SurfaceD>& surfaces, const Lighting
                                      .define("HAS_SPECULAR", 1)
                                      .define("HAS_SPOT_LIGHTS", 1);
     const auto found =
-        run_probe<float>(test_gpu(lanes), {kHeaders, kProbe, "probe", options}, count, 3 * count,
-                         in, static_cast<uint>(count), copy_of(lighting.lights),
+        run_probe<float>(gpu, {kHeaders, kProbe, options}, count / lanes_of(gpu), 3 * count, in,
+                         static_cast<uint>(count), copy_of(lighting.lights),
                          static_cast<uint>(lighting.lights.size()), copy_of(lighting.directional),
                          static_cast<uint>(lighting.directional.size()),
                          static_cast<float>(lighting.ambient), lighting.orthographic ? 1u : 0u);
@@ -110,6 +111,7 @@ ProbeResult probe_evaluate(const std::vector<SurfaceD>& surfaces, const Lighting
 
 std::vector<float> probe_pow_of_cos2(const std::vector<float>& sin2, const std::vector<float>& n,
                                      int lanes) {
+    const Gpu gpu = test_gpu(lanes);
     const std::size_t count = round_up(sin2.size(), 16);
     std::vector<float> padded_sin2 = sin2;
     std::vector<float> padded_n = n;
@@ -118,7 +120,7 @@ std::vector<float> probe_pow_of_cos2(const std::vector<float>& sin2, const std::
     std::vector<float> cos2;
     cos2.reserve(count);
     for (const float s : padded_sin2) cos2.push_back(static_cast<float>(1.0 - double{s}));
-    auto powers = run_probe<float>(test_gpu(lanes), {kHeaders, kPowProbe}, count, count, cos2,
+    auto powers = run_probe<float>(gpu, {kHeaders, kPowProbe}, count / lanes_of(gpu), count, cos2,
                                    padded_sin2, padded_n);
     powers.resize(sin2.size());
     return powers;

@@ -38,7 +38,7 @@ std::vector<int> passes_on_device(const std::vector<Ray>& rays, bool are_directi
         }
     }
     return at_every_width([&](const Gpu& gpu) {
-        return run_probe<int>(gpu, {kHeaders, kProbe}, rays.size() * lanes_of(gpu), rays.size(), in,
+        return run_probe<int>(gpu, {kHeaders, kProbe}, rays.size(), rays.size(), in,
                               are_directions ? 1u : 0u);
     });
 }
@@ -147,8 +147,7 @@ TEST(ShadowTriangle, PlanesDoNotHideTheirOwnPoints) {
         }
     }
     const auto all = at_every_width([&](const Gpu& gpu) {
-        return run_probe<float>(gpu, {kHeaders, kPlaneProbe}, kTriangles * lanes_of(gpu),
-                                kTriangles, in);
+        return run_probe<float>(gpu, {kHeaders, kPlaneProbe}, kTriangles, kTriangles, in);
     });
     for (const float behind : all) {
         ASSERT_NEAR(behind, -2.0f, 1.0f);

@@ -15,9 +15,12 @@ namespace {
 
 constexpr std::string_view kHeaders[] = {"kernels/surfaces/raster_set_up.h"};
 constexpr std::string_view kProbe = R"(
-kernel void probe(View view, global const float* in, uint count, global float* out) {
-    FV3 a = probe_vector(in, 2, 0), b = probe_vector(in, 2, 1);
-    put_probe_vector(sure_edge(a, b, size3(a) * size3(b), ray_span(view)), count, out);
+kernel void probe(View view, global const float* in, global float* out) {
+    size_t i = get_global_id(0);
+    float3 p = vload3(2 * i, in), q = vload3(2 * i + 1, in);
+    FV3 a = fv3(fv(p.x), fv(p.y), fv(p.z)), b = fv3(fv(q.x), fv(q.y), fv(q.z));
+    FV3 e = sure_edge(a, b, size3(a) * size3(b), ray_span(view));
+    vstore3((float3)(lane_max(e.x), lane_max(e.y), lane_max(e.z)), i, out);
 }
 )";
 
@@ -62,7 +65,7 @@ TEST(RasterSetUp, SignsOfEdgesAreCertainBeyondOne) {
     const std::vector<float> in = edges_end_on(kEdges);
     const auto found = at_every_width([&](const Gpu& gpu) {
         return run_probe<float>(gpu, {kHeaders, kProbe}, kEdges, 3 * kEdges, view_beside_the_axis(),
-                                in, uint{kEdges});
+                                in);
     });
     std::mt19937 random(8);
     std::uniform_real_distribution<float> place(kNear, kFar);
@@ -70,7 +73,7 @@ TEST(RasterSetUp, SignsOfEdgesAreCertainBeyondOne) {
     for (std::size_t i = 0; i < 100 * kEdges; ++i) {
         const std::size_t edge = i / 100;
         const float ray[3] = {place(random), -place(random), -1.0f};
-        const auto e = [&](std::size_t axis) { return double{found[axis * kEdges + edge]}; };
+        const auto e = [&](std::size_t axis) { return double{found[3 * edge + axis]}; };
         const double side = e(0) * ray[0] + e(1) * ray[1] - e(2);
         if (std::abs(side) <= 1.0) continue;
         ++sure;

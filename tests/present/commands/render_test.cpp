@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <thread>
@@ -23,6 +24,24 @@ std::vector<std::string> small_render(const fs::path& output, std::vector<std::s
                                       "--lights", "20",   "-o",           output.string()};
     words.insert(words.end(), more.begin(), more.end());
     return words;
+}
+
+// What the display shows, whatever the curve and the exposure.
+TEST(Render, ABackgroundHasTheColourThatIsGiven) {
+    const TemporaryFolder folder;
+    const fs::path file = folder / "a.png";
+    for (const char* curve : {"none", "neutral", "aces"}) {
+        const ChildResult result = run_kilolux(small_render(
+            file,
+            {"--camera-position", "0,100,0", "--camera-focal-point", "0,200,0", "--camera-view-up",
+             "0,0,1", "--background", "#334455", "--tonemap", curve, "--exposure", "1", "-q"}));
+        ASSERT_EQ(result.code, 0) << result.err;
+        const FloatImage image = read_image(file);
+        for (std::size_t i = 0; i < image.values.size(); ++i) {
+            const int code = static_cast<int>(std::lround(image.values[i] * 255.0f));
+            ASSERT_EQ(code, 0x33 + 0x11 * static_cast<int>(i % 3)) << curve << " " << i;
+        }
+    }
 }
 
 TEST(Render, WritesAnExrThatSaysHowItWasMade) {
