@@ -57,7 +57,8 @@ void refuse_cut_png(OIIO::Filesystem::IOProxy& file, const std::string& where) {
     for (std::size_t at = kSignature; at + kBesideData <= file.size();) {
         file.pread(head, sizeof head, static_cast<std::int64_t>(at));
         if (std::memcmp(head + 4, "IEND", 4) == 0) return;
-        const std::size_t length = head[0] << 24u | head[1] << 16u | head[2] << 8u | head[3];
+        std::size_t length = 0;
+        for (int i = 0; i < 4; ++i) length = length << 8 | head[i];
         at += kBesideData + length;
     }
     throw Error(where + "the file is cut off");
