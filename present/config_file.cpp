@@ -36,7 +36,7 @@ std::string value_text(const std::filesystem::path& file, const std::string& nam
     if (value.is_number() || value.is_boolean()) return value.dump();
     if (!value.is_array()) {
         throw UsageError(
-            fmt::format("{}: {}: '{}' is no text, number, true, false or array of them",
+            fmt::format("{}: {}: '{}' must be a text, a number, true, false or an array of them",
                         file.string(), name, value.dump()));
     }
     std::vector<std::string> parts;
@@ -45,7 +45,7 @@ std::string value_text(const std::filesystem::path& file, const std::string& nam
 }
 
 Entries json_entries(const std::filesystem::path& file, const std::string& text) {
-    // A parsed object has each name once, with its last value.
+    // Collected here since a parsed object has each name once, with its last value.
     std::vector<std::pair<std::string, Json>> members;
     const auto note_member = [&members](int depth, Json::parse_event_t event, const Json& value) {
         using Event = Json::parse_event_t;
@@ -65,12 +65,12 @@ Entries json_entries(const std::filesystem::path& file, const std::string& text)
     return entries;
 }
 
-// Goes on with the brackets and strings of TOML in a line of a value.
+// Follows the brackets and strings of a TOML value from line to line.
 class TomlValue {
  public:
     bool is_open() const { return depth_ > 0 || quote_.size() == 3; }
 
-    // Returns the line without its comment.
+    // Takes the value's next line, and returns it without its comment.
     std::string_view add(std::string_view line) {
         if (quote_.size() == 1) quote_ = "";  // strings of one line end with it
         for (std::size_t i = 0; i < line.size(); ++i) {
@@ -97,12 +97,12 @@ class TomlValue {
 
  private:
     int depth_ = 0;
-    std::string quote_;  // that ends the present string
+    std::string quote_;  // ends the current string; empty: outside of strings
 };
 
-// The names of a TOML text with their values as they are written: CLI11 joins the values of a name
-// that stands twice in a row.
-Entries written_entries(const std::string& text) {
+// The entries of a TOML text with values as they are written. To find names that stand twice:
+// CLI11 joins the values of such a name.
+Entries toml_lines(const std::string& text) {
     Entries entries;
     TomlValue value;
     int number = 0;
@@ -128,7 +128,7 @@ Entries toml_entries(const std::filesystem::path& file, const std::string& text)
     for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_config(in)) {
         if (item.name == "++" || item.name == "--") continue;  // CLI11's marks around a [section]
         if (!item.parents.empty()) {
-            throw UsageError(fmt::format("{}: [{}]: there are no sections", file.string(),
+            throw UsageError(fmt::format("{}: [{}]: a config file has no sections", file.string(),
                                          joined(item.parents, ".")));
         }
         entries.push_back({item.name, joined(item.inputs, ",")});
@@ -164,8 +164,9 @@ void refuse_twice(const std::filesystem::path& file, const Entries& entries) {
         const auto [first, is_new] = seen.emplace(entry.name, entry.text);
         if (is_new) continue;
         const std::string line = entry.line > 0 ? fmt::format(":{}", entry.line) : "";
-        throw UsageError(fmt::format("{}{}: '{}' stands twice, as {} and {}; a list is an array",
-                                     file.string(), line, entry.name, first->second, entry.text));
+        throw UsageError(
+            fmt::format("{}{}: '{}' is given twice, as {} and as {}; give a list as an array",
+                        file.string(), line, entry.name, first->second, entry.text));
     }
 }
 
@@ -175,7 +176,7 @@ void apply_config_file(CLI::App& command, const std::filesystem::path& file) {
     const std::string text = read_text(file);
     const bool is_json = trim(text).starts_with('{');
     const Entries entries = is_json ? json_entries(file, text) : toml_entries(file, text);
-    refuse_twice(file, is_json ? entries : written_entries(text));
+    refuse_twice(file, is_json ? entries : toml_lines(text));
     for (const Entry& entry : entries) {
         apply(option_of(command, file, entry.name), file, entry.name, entry.text);
     }

@@ -7,8 +7,8 @@
 
 namespace kilolux {
 
-/// Used objects whose memory serves again: to allocate and clear large arrays takes as long as to
-/// fill them. All functions may be called by any thread.
+/// Keeps used objects, so that others take over their memory: allocating and clearing a large array
+/// takes as long as filling it. Any thread may call these functions.
 template <typename T>
 class Spares {
  public:

@@ -104,6 +104,9 @@ class ImageReader {
     /// Reads all channels of `rows` rows from row `first` on, as they are stored, to `out`,
     /// `row_stride` bytes from a row to the next. Throws Error.
     virtual void read_rows(int first, int rows, void* out, std::size_t row_stride) = 0;
+
+    /// Reads the last row of pixels: throws Error for a file that is cut off.
+    virtual void check_end() = 0;
 };
 
 /// Colours as stored. Throws Error "<file>: cannot read the image: <OpenImageIO's reason>".

@@ -22,7 +22,7 @@ double ms_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-// The lights at the frame's time, on the device and, for OpenGL's fragments, on the host.
+// Brings the lights at the frame's time to the device and, for OpenGL's fragments, to the host.
 LightInput place_lights(Pipeline& p, const Shot& shot, FrameStats& stats) {
     const RenderContext& context = p.context;
     const Clock::time_point start = Clock::now();
@@ -53,7 +53,7 @@ Sample make_sample(Pipeline& p, const Shot& shot, LightInput lights, const Band&
     return out;
 }
 
-// Stages over the whole picture -> tonemap -> picture.
+// Runs the stages over the whole picture, tone maps its light and reads it back.
 void develop(Pipeline& p, const Radiance& light, Frame& frame) {
     const Radiance shown = p.picture.finished(light, p.timer);
     p.picture.read_light(shown, frame.shown_light, p.timer);
@@ -61,7 +61,8 @@ void develop(Pipeline& p, const Radiance& light, Frame& frame) {
     if (display) p.picture.read_display(*display, p.timer);
 }
 
-// Tone maps a band. Stages over the whole picture wait for the last band.
+// Tone maps a band and reads it back; if stages over the whole picture follow, only keeps its light
+// for them.
 void develop_band(Pipeline& p, const std::optional<DisplayTarget>& shaded, const Radiance& light,
                   Frame& frame) {
     if (shaded) return p.picture.read_display(*shaded, p.timer);
@@ -69,7 +70,7 @@ void develop_band(Pipeline& p, const std::optional<DisplayTarget>& shaded, const
     if (!p.picture.keep_for_whole(light)) develop(p, light, frame);
 }
 
-// A band's AOVs, and its surfaces for a view.
+// Reads a band's AOVs, and its surfaces if a view needs them.
 void add_pixels(Pipeline& p, const Shot& shot, SharedPicture& picture) {
     const FrameRequest& want = p.context.settings.want;
     if (!want.pixels()) return;
@@ -93,7 +94,7 @@ void add_pixels(Pipeline& p, const Shot& shot, SharedPicture& picture) {
     }
 }
 
-// Replaces the lit picture by the view.
+// Replaces the lit picture by the view that is asked for.
 void show_view(Pipeline& p, const Shot& shot, const DecodedSurfaces& surfaces, Frame& frame) {
     const ViewKind view = p.context.settings.want.view;
     if (view == ViewKind::lit) return;
@@ -108,7 +109,7 @@ void show_view(Pipeline& p, const Shot& shot, const DecodedSurfaces& surfaces, F
                                      frame.radiance, reference_light});
 }
 
-// Memory for the pixels of these rows.
+// Gives the frame memory for the pixels of these rows.
 void allocate(const Pipeline& p, Band rows, bool shown_only, bool by_rows, Frame& frame) {
     const Clock::time_point start = Clock::now();
     p.picture.resize(frame, rows, shown_only, by_rows);
@@ -117,7 +118,7 @@ void allocate(const Pipeline& p, Band rows, bool shown_only, bool by_rows, Frame
     frame.stats.frame_ms += ms;
 }
 
-// The frame's lights on the device.
+// Prepares the pipeline for the frame, and brings its lights to the device.
 LightInput begin(Pipeline& p, const Shot& shot, Frame& frame, FrameStats& stats) {
     const RenderContext& context = p.context;
     context.scene->make_current();
@@ -128,8 +129,8 @@ LightInput begin(Pipeline& p, const Shot& shot, Frame& frame, FrameStats& stats)
     p.last.camera = shot.camera;
     const PictureKey key{context.settings, shot.camera, shot.time,
                          context.scene->scene().revisions};
-    // OpenGL's targets hold the tile that further rows of the same picture need, before any
-    // background.
+    // OpenGL's targets still hold the tile of the last rows, which further rows of the same picture
+    // need. Background and results that are asked for do not change it.
     PictureKey drawn = key;
     drawn.settings.background.reset();
     drawn.settings.want = {};
@@ -143,8 +144,8 @@ LightInput begin(Pipeline& p, const Shot& shot, Frame& frame, FrameStats& stats)
     return lights;
 }
 
-// Lights -> surfaces -> lists -> visibility -> shading -> environment -> picture, sample by sample
-// of each band. Stages whose results had no room are repeated.
+// Renders each band sample by sample: lights -> surfaces -> lists -> visibility -> shading ->
+// environment -> picture. Repeats the stages whose results had no room.
 void render_bands(Pipeline& p, const Shot& shot, SharedPicture& picture, FrameStats& total) {
     Frame& frame = picture.frame;
     const LightInput lights = begin(p, shot, frame, total);
@@ -186,13 +187,13 @@ void render_bands(Pipeline& p, const Shot& shot, SharedPicture& picture, FrameSt
         add_band(total, stats);
         total.frame_ms += std::max(0.0, ms_since(start) - stats.build_ms);
         add_pixels(p, shot, picture);
-        // What the pixels took is no part of frame_ms.
+        // frame_ms leaves out the time of add_pixels().
         p.context.gpu.programs->take_builds();
         p.timer = StageTimer();
     }
 }
 
-// What needs all rows: stages over the whole picture, and views.
+// Does what needs all rows: stages over the whole picture, and views.
 void finish(Pipeline& p, const Shot& shot, SharedPicture& picture, FrameStats& stats) {
     Frame& frame = picture.frame;
     const Clock::time_point start = Clock::now();
@@ -216,7 +217,7 @@ Frame make_frame(Pipeline& p, const Shot& shot) {
     return std::move(picture.frame);
 }
 
-// A pipeline in which something failed is not kept.
+// Calls `call`. If it fails, the pipeline is marked, and not used again.
 template <typename Call>
 auto soundly(Pipeline& pipeline, const Call& call) {
     try {
@@ -264,7 +265,7 @@ FrameStats finish_rows(Pipeline& pipeline, const Shot& shot, SharedPicture& pict
     return soundly(pipeline, [&] {
         FrameStats stats;
         const QueueDrain drain(pipeline.context.gpu.queue);
-        // This renderer may have made no rows of the picture.
+        // As begin() does, which this renderer has not called if others made all rows.
         pipeline.context.scene->make_current();
         pipeline.context.scene->take_up_changes();
         pipeline.timer = StageTimer();

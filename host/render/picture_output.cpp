@@ -34,16 +34,16 @@ void PictureOutput::resize(Frame& frame, Band rows, bool shown_only, bool by_row
     const auto pixels =
         static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
     Frame spare = spares_->take();
-    const auto give = [&spare](auto Frame::*member, Frame& to, std::size_t values) {
+    const auto resize_spare = [&spare](auto Frame::*member, Frame& to, std::size_t values) {
         to.*member = std::move(spare.*member);
         (to.*member).resize(values);
     };
-    if (want.display && !shown_only) give(&Frame::display, frame, 4 * pixels);
+    if (want.display && !shown_only) resize_spare(&Frame::display, frame, 4 * pixels);
     const bool whole = needs_whole_picture(settings);
     if ((want.radiance && !shown_only) || want.view == ViewKind::difference || (by_rows && whole)) {
-        give(&Frame::radiance, frame, 3 * pixels);
+        resize_spare(&Frame::radiance, frame, 3 * pixels);
     }
-    if (want.shown_light && whole) give(&Frame::shown_light, frame, 3 * pixels);
+    if (want.shown_light && whole) resize_spare(&Frame::shown_light, frame, 3 * pixels);
 }
 
 void PictureOutput::begin(DisplayMemory memory, Frame& frame, bool by_rows) {

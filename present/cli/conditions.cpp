@@ -43,8 +43,8 @@ std::string file_line(const fs::path& file) {
     return fmt::format("{} {} {}\n", file.filename().string(), size, hash_text(hashes));
 }
 
-// The uris of a glTF file that name files, in the file's order. Keeps no other value.
-class NamedFiles : public nlohmann::json_sax<nlohmann::json> {
+// Collects the uris of a glTF file that name files, in the file's order.
+class UriReader : public nlohmann::json_sax<nlohmann::json> {
  public:
     const std::vector<std::string>& uris() const { return uris_; }
 
@@ -78,7 +78,7 @@ class NamedFiles : public nlohmann::json_sax<nlohmann::json> {
 
 // Lines of all files that a .gltf or .glb file names; none if it is no such file.
 std::string named_files(const fs::path& file) {
-    NamedFiles named;
+    UriReader named;
     try {
         Bytes bytes = read_gltf_json(file);
         const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());

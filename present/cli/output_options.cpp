@@ -118,10 +118,10 @@ void visit_sequence(const SettingVisitor& f, OutputOptions& o) {
                kPicture},
               o.camera_keys)
         .flag("--skip-existing", o.skip_existing,
-              "Skip frames whose file holds this picture already, by its size and notes of command "
-              "and input files, or a video that holds these frames. Another picture there is an "
-              "error; "
-              "an unreadable file is made again");
+              "Skip a picture or video whose file is there already: its size and its notes of "
+              "command "
+              "and input files tell. A file of another picture is an error; a file that is "
+              "unreadable or cut off is made again");
 }
 
 void visit_comparison(const SettingVisitor& f, OutputOptions& o) {

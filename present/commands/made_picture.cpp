@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <optional>
 #include <vector>
 
@@ -26,8 +25,8 @@ void expect(const std::filesystem::path& file, const char* what, const std::stri
             const std::string& asked) {
     if (seen == asked) return;
     throw Error(fmt::format(
-        "{}: holds another {}: its {} is '{}', asked for is '{}'; remove it, name another "
-        "--output, or leave --skip-existing out",
+        "{}: holds another {}: its {} is '{}', but '{}' is asked for; remove it, choose another "
+        "--output, or leave out --skip-existing",
         file.string(), is_video(file) ? "video" : "picture", what, seen, asked));
 }
 
@@ -39,7 +38,8 @@ std::string without_end(std::string line) {
 
 std::string size_text(int width, int height) { return fmt::format("{}x{}", width, height); }
 
-// What `read` finds in the file; none with a note where it cannot be read.
+// What `read` finds in the file; none with a warning, which is printed once, where it cannot be
+// read.
 template <typename Read>
 auto read_made(const std::filesystem::path& file, const Read& read)
     -> std::optional<decltype(read(file))> {
@@ -47,7 +47,7 @@ auto read_made(const std::filesystem::path& file, const Read& read)
     try {
         return read(file);
     } catch (const Error& error) {
-        note(fmt::format("{}; it is made anew", error.what()));
+        warn(fmt::format("{}; it is made anew", error.what()));
         return std::nullopt;
     }
 }
@@ -64,14 +64,17 @@ std::string picture_command(const RenderOptions& options) {
 
 std::string inputs_comment(const RenderOptions& options) {
     std::vector<std::filesystem::path> more = {options.output.camera_keys};
-    const char* ocio = std::getenv("OCIO");
-    if (ocio != nullptr && uses_ocio(options.output.ocio)) more.emplace_back(ocio);
+    if (uses_ocio(options.output.ocio)) more.emplace_back(ocio_config());
     const std::string content = input_content(options.shared, more);
     return content.empty() ? "" : " # input files " + content;
 }
 
 bool is_made(const WantedPicture& wanted) {
-    const auto found = read_made(wanted.file, open_image);
+    const auto found = read_made(wanted.file, [](const std::filesystem::path& file) {
+        auto image = open_image(file);
+        image->check_end();
+        return image;
+    });
     if (!found) return false;
     const ImageLayout& layout = (*found)->layout();
     expect(wanted.file, "size", size_text(layout.width, layout.height),

@@ -15,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The display colours of the covering surfaces alone, without the black background. Pixels that are
-// covered whole keep their codes.
+// Display colours of the surfaces, without the black background that shows through them. Pixels
+// that surfaces cover completely keep their codes.
 std::vector<float> covered_colours(const RenderOptions& options, const Frame& frame,
                                    const std::vector<float>& alpha, std::vector<float> whole) {
     Frame covered;
@@ -35,9 +35,10 @@ std::vector<float> covered_colours(const RenderOptions& options, const Frame& fr
     return whole;
 }
 
-// Writes a file beside its place, and has the disk take it; the result puts it there. So files are
-// written at once, and appear in their order. A pipe gets its bytes in this order, too.
-OrderedWriter::Write placed(const fs::path& file, std::vector<unsigned char> bytes) {
+// Writes a temporary file beside `file`; the function returned renames it. So several files are
+// written at once, and appear in their order. A pipe gets its bytes only from the function
+// returned.
+OrderedWriter::Write write_beside(const fs::path& file, std::vector<unsigned char> bytes) {
     if (is_special(file)) {
         return [file, bytes = std::move(bytes)] { write_atomically(file, bytes); };
     }
@@ -47,7 +48,7 @@ OrderedWriter::Write placed(const fs::path& file, std::vector<unsigned char> byt
     return [out] { out->commit(); };
 }
 
-// Codes a picture; the result puts it in its place, or appends it to the video.
+// Codes a picture. The function returned puts it in its place, or appends it to the video.
 OrderedWriter::Write coded(const RenderOptions& options, RenderedPicture& picture,
                            VideoFile* video) {
     const ImageOptions image = image_options(options, picture);
@@ -55,8 +56,8 @@ OrderedWriter::Write coded(const RenderOptions& options, RenderedPicture& pictur
     OrderedWriter::Write write_difference = [] {};
     if (picture.difference) {
         write_difference =
-            placed(task.difference, encode_image(task.difference, *picture.difference, {},
-                                                 ImageOptions{options.output.encoding}));
+            write_beside(task.difference, encode_image(task.difference, *picture.difference, {},
+                                                       ImageOptions{options.output.encoding}));
     }
     if (video != nullptr) {
         if (!image.display.empty()) set_display(picture.frame, image.display);
@@ -68,12 +69,11 @@ OrderedWriter::Write coded(const RenderOptions& options, RenderedPicture& pictur
             video->spares().give(std::move(bytes));
         };
     }
-    return
-        [write_difference,
-         write = placed(task.file, encode_image(task.file, picture.frame, picture.notes, image))] {
-            write_difference();
-            write();
-        };
+    return [write_difference, write = write_beside(task.file, encode_image(task.file, picture.frame,
+                                                                           picture.notes, image))] {
+        write_difference();
+        write();
+    };
 }
 
 void count(WrittenPictures& made, FrameRecord record) {
@@ -86,7 +86,7 @@ void count(WrittenPictures& made, FrameRecord record) {
     made.last = std::move(record);
 }
 
-// Null for pictures.
+// The video that is asked for; null if pictures are.
 std::unique_ptr<VideoFile> open_video(const RenderOptions& options) {
     const OutputOptions& out = options.output;
     if (!is_video(out.output)) return nullptr;
@@ -113,7 +113,8 @@ RenderedPicture::~RenderedPicture() {
     }
 }
 
-// The renderer's display picture has 8 bits and our tone curves; other pictures are made here.
+// Makes the display colours that the renderer's display picture does not have: of 16 bits, by
+// OpenColorIO, or of surfaces without background.
 ImageOptions image_options(const RenderOptions& options, const RenderedPicture& picture) {
     const OutputOptions& out = options.output;
     const bool for_the_eye = is_for_the_eye(picture.task.file);

@@ -186,7 +186,7 @@ void make_strips(const Job& job, SceneRenderer& pictures, DeviceShare& share, st
     FrameRecord record = write_strips(job.options, pictures, job.tasks[i], nullptr, own);
     if (i == job.first) advise(pictures, record);
     if (job.measures_devices) pictures.fill_limits(record);
-    ++share.pictures;
+    ++share.finished;
     job.queue.deliver(i, [&job, record = std::move(record)]() mutable {
         job.files.add_written(std::move(record));
     });
@@ -210,7 +210,7 @@ void make_picture(const Job& job, SceneRenderer& pictures, DeviceShare& share, s
     });
     if (i == job.first) advise(pictures, record);
     if (job.measures_devices) pictures.fill_limits(record);
-    ++share.pictures;
+    ++share.finished;
     job.queue.deliver(i, [&job, picture, record = std::move(record)]() mutable {
         job.files.add(std::move(*picture), std::move(record));
     });

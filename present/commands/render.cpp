@@ -13,6 +13,7 @@
 #include "present/cli/option_values.h"
 #include "present/cli/options.h"
 #include "present/commands/camera_motion.h"
+#include "present/commands/devices/device_share.h"
 #include "present/commands/devices/picture_by_rows.h"
 #include "present/commands/made_picture.h"
 #include "present/commands/picture_files.h"
@@ -143,11 +144,6 @@ void render_from(RenderOptions& options, const PictureTasks& tasks, std::size_t 
             return made;
         };
     }
-    if (!more_devices.empty()) {
-        RenderSettings& settings = options.shared.settings;
-        settings.max_memory_bytes = memory_limit(settings);  // is one for all
-        settings.memory_shares += static_cast<int>(more_devices.size());
-    }
     SceneRenderer pictures(options.shared, options.budget, start);
     if (helpers != nullptr) helpers->wait_until_ready();
     // Before the frames, which may take minutes.
@@ -196,6 +192,7 @@ void run_render(RenderOptions& options) {
     if (begin == tasks.size()) return note("nothing to render: every file is there");
     const PictureTask first = tasks[begin];
     check_files(options, tasks, first);
+    share_memory(options.shared.settings, 1 + more_devices.size());
     check_light_memory(options.shared.lights_given ? options.shared.settings.lights.count : 0,
                        options.shared.settings);
     warn_of_linear_light(options);

@@ -83,7 +83,7 @@ void measure(const ReportOptions& options, const ReportView& view, ReportRun& ru
         auto [rows, shares] = measure_on(options.devices, run, {view, settings, frames, advance});
         report.rows = std::move(rows);
         report.shares = std::move(shares);
-        report.context["devices"] = report_json(report.shares);
+        report.context["devices"] = devices_json(report.shares);
     }
     run.on_step([] {});
     run.on_progress([] {});
@@ -124,7 +124,7 @@ void write_errors(const fs::path& folder, const Report& report, const ReportRow&
 // The summary with its notes: report.md.
 std::string report_text(const Report& report) {
     return to_markdown(report_summary(report.rows), 3) + "\n" + report_notes(report.rows) +
-           report_lines(report.shares);
+           device_lines(report.shares);
 }
 
 // The document of --json and report.json.
@@ -238,22 +238,23 @@ void add_report_options(CLI::App& command, ReportOptions& options) {
     OptionBuilder(command, "Measuring and output")
         .flag("--quick", options.quick,
               "480x270 pixels, 1000 lights, fewer settings and frames: minutes on two CPU cores")
-        .choice_list({"--axes", "", "all; shadows where --shadows asks for some",
-                      "What settings may differ in; shadows compares off, exact and sampled ones "
-                      "by 1, 4 and 16 rays, and makes --shadows exact the default"},
-                     options.axes, setting_axis_names())
-        .count({"--warm-up", "N", "2", "Frames before the measured ones, in each of two rounds"},
+        .choice_list(
+            {"--axes", "", "all; shadows where --shadows asks for some",
+             "In what the settings differ, one at a time. shadows: none, exact, and sampled "
+             "by 1, 4 and 16 rays; it makes --shadows exact the default"},
+            options.axes, setting_axis_names())
+        .count({"--warm-up", "N", "2", "Frames before the measured ones, in both rounds"},
                options.warm_up, {0, 1'000'000})
-        .count({"--frames", "N", "20", "Measured frames; fewer of slow settings"}, options.frames,
+        .count({"--frames", "N", "20", "Measured frames; slow settings get fewer"}, options.frames,
                {1, 1'000'000})
         .flag("--check-default", options.check_default,
               "Exit with 3 where another setting is faster beyond noise and as exact")
         .text({"--output,-o", "DIR", "", "Folder for CSV, JSON, Markdown, plots and pictures"},
               options.output)
-        .flag(
-            "--mixed-devices", options.mixed_devices,
-            "With several devices: they may differ, and so may the bits of the errors; the report "
-            "notes which one measured each setting")
+        .flag("--mixed-devices", options.mixed_devices,
+              "Take devices of several kinds, whose errors may differ in bits; the report notes "
+              "which "
+              "one measured each setting")
         .flag("--json", options.json, "JSON instead of a table on standard output");
     add_options(command, options.budget);
 }

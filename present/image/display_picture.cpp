@@ -13,11 +13,6 @@
 namespace kilolux {
 namespace {
 
-const char* ocio_config() {
-    const char* file = std::getenv("OCIO");
-    return file != nullptr && *file != '\0' ? file : nullptr;
-}
-
 float srgb_of_linear(float linear) {
     return static_cast<float>(linear_to_srgb(std::clamp<double>(linear, 0.0, 1.0)));
 }
@@ -40,6 +35,11 @@ FV3 tone_mapped(FV3 c, ToneCurve curve) {
 }
 
 }  // namespace
+
+const char* ocio_config() {
+    const char* file = std::getenv("OCIO");
+    return file != nullptr && *file != '\0' ? file : nullptr;
+}
 
 bool uses_ocio(const OcioOptions& options) {
     if (ocio_config() != nullptr) return options.view != "none";

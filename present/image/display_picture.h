@@ -11,6 +11,9 @@
 
 namespace kilolux {
 
+/// The file that $OCIO names; null if none.
+const char* ocio_config();
+
 /// Whether $OCIO is set and the options do not say "none". Throws UsageError for options that need
 /// $OCIO where it is not set.
 bool uses_ocio(const OcioOptions& options);

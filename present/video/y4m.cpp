@@ -12,20 +12,20 @@
 namespace kilolux {
 namespace {
 
-// Luma of BT.709's primaries.
+// Shares of R', G' and B' in BT.709's luma.
 constexpr double kRed = 0.2126, kGreen = 0.7152, kBlue = 0.0722;
 
-// What a display code's step is in a code of limited range.
+// Steps of a code of limited range for a step of a display code.
 constexpr double kLumaStep = 219.0 / 255.0;
 constexpr double kBlueStep = 224.0 / 255.0 / (2.0 * (1.0 - kBlue));
 constexpr double kRedStep = 224.0 / 255.0 / (2.0 * (1.0 - kRed));
 
-// Through int, which vectors convert to.
+// The nearest code. Vector instructions convert doubles to int only.
 inline char nearest(double code) {
     return static_cast<char>(static_cast<unsigned char>(static_cast<int>(code + 0.5)));
 }
 
-// The planes, one after the other. Inlined: compiled for the instructions of the caller.
+// A PlaneMaker. It is inlined, and so compiled for the instructions of its caller.
 [[gnu::always_inline]] inline void put_planes(const std::uint8_t* __restrict rgba,
                                               std::size_t pixels, char* __restrict luma) {
     char* __restrict const blue = luma + pixels;
@@ -39,24 +39,21 @@ inline char nearest(double code) {
     }
 }
 
-#if defined(__x86_64__)
-// Without multiply-adds that round once: the same bits.
-[[gnu::target("avx2")]] void put_planes_of_4(const std::uint8_t* rgba, std::size_t pixels,
-                                             char* planes) {
+void put_planes_anywhere(const std::uint8_t* rgba, std::size_t pixels, char* planes) {
     put_planes(rgba, pixels, planes);
 }
-#endif
 
-void put_all_planes(const std::uint8_t* rgba, std::size_t pixels, char* planes) {
 #if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2")) return put_planes_of_4(rgba, pixels, planes);
-#endif
+// Not of "fma", whose multiply-adds round once: other bits.
+[[gnu::target("avx2")]] void put_planes_by_avx2(const std::uint8_t* rgba, std::size_t pixels,
+                                                char* planes) {
     put_planes(rgba, pixels, planes);
 }
+#endif
 
 }  // namespace
 
-// Convergents of the continued fraction: the best ratios there are.
+// By the convergents of the continued fraction, the nearest ratios for their terms.
 Ratio ratio_of(double value) {
     constexpr double kMost = 2147483647.0;
     double before[2] = {0.0, 1.0}, now[2] = {1.0, 0.0};
@@ -85,12 +82,22 @@ std::string y4m_header(const VideoFormat& format, const std::string& note) {
         format.height, pace.numerator, pace.denominator, hash);
 }
 
+std::span<const PlaneMaker> plane_makers() {
+#if defined(__x86_64__)
+    static constexpr PlaneMaker kMakers[] = {put_planes_anywhere, put_planes_by_avx2};
+    return std::span(kMakers).first(__builtin_cpu_supports("avx2") ? 2 : 1);
+#else
+    static constexpr PlaneMaker kMakers[] = {put_planes_anywhere};
+    return kMakers;
+#endif
+}
+
 void y4m_frame(std::span<const std::uint8_t> rgba, std::string& out) {
     constexpr std::string_view kHead = "FRAME\n";
     const std::size_t pixels = rgba.size() / 4;
     out.resize(kHead.size() + 3 * pixels);
     std::ranges::copy(kHead, out.begin());
-    put_all_planes(rgba.data(), pixels, &out[kHead.size()]);
+    plane_makers().back()(rgba.data(), pixels, &out[kHead.size()]);
 }
 
 }  // namespace kilolux

@@ -2,6 +2,7 @@
 // YUV4MPEG2 streams: a line of text, then frames of planes. Read by ffmpeg, mpv, x264, aomenc, ...
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -30,9 +31,14 @@ Ratio ratio_of(double value);
 /// hexadecimal digits, the hash of a note. At most 95 bytes, which is what ffmpeg reads.
 std::string y4m_header(const VideoFormat& format, const std::string& note = {});
 
-/// Puts a frame in place of `out`, whose memory it takes: "FRAME\n" and the planes Y', Cb, Cr, of
-/// display codes R, G, B, A. Each code is the nearest to ITU-R BT.709-6, 3.2 to 3.5: Y' 16 to 235,
-/// Cb and Cr 16 to 240.
+/// Makes the planes Y', Cb and Cr, one after the other, of display codes R, G, B, A. Each code is
+/// the nearest to ITU-R BT.709-6, 3.2 to 3.5: Y' 16 to 235, Cb and Cr 16 to 240.
+using PlaneMaker = void (*)(const std::uint8_t* rgba, std::size_t pixels, char* planes);
+
+/// The makers that this processor can run, the fastest last; they give the same bits.
+std::span<const PlaneMaker> plane_makers();
+
+/// Replaces `out` by a frame of display codes R, G, B, A: "FRAME\n" and its planes.
 void y4m_frame(std::span<const std::uint8_t> rgba, std::string& out);
 
 }  // namespace kilolux

@@ -349,32 +349,54 @@ TEST_F(Faults, OutputsThatCannotBeWritten) {
     EXPECT_TRUE(names_in(other).empty());
 }
 
-// SIGINT and SIGTERM at any moment from start to end.
+// Waits until the program handles the signal (proc_pid_status(5)) or has ended.
+void wait_until_handled(pid_t child, int number) {
+    for (siginfo_t ended = {}; ended.si_pid != child;) {
+        const std::string status = text_of_file(fmt::format("/proc/{}/status", child));
+        const std::size_t at = status.find("SigCgt:");
+        if (at != std::string::npos) {
+            const std::uint64_t caught = std::stoull(status.substr(at + 7), nullptr, 16);
+            if ((caught >> (number - 1) & 1) != 0) return;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT);
+    }
+}
+
+// SIGINT and SIGTERM at any moment from start to end: one in four while libraries are loaded, the
+// others after main() has begun to handle them.
 TEST_F(Faults, SignalsAtRandomMoments) {
+    using Clock = std::chrono::steady_clock;
+    const Words words = render_words({}, picture_, {"--quiet"});
+    ASSERT_EQ(run_child(words).code, 0) << "builds the kernels";
+    Clock::time_point start, handled;
+    ASSERT_EQ(run_child(words,
+                        [&](pid_t child) {
+                            start = Clock::now();
+                            wait_until_handled(child, SIGINT);
+                            handled = Clock::now();
+                        })
+                  .code,
+              0);
+    const Clock::duration loading = handled - start, working = Clock::now() - handled;
     std::mt19937 random(11);
-    const auto begin = std::chrono::steady_clock::now();
-    ASSERT_EQ(
-        run_child(render_words({}, elsewhere_ / "whole.png",
-                               {"--frames", "0:0", "-o", (elsewhere_ / "whole.#.png").string()}))
-            .code,
-        0);
-    const auto whole = std::chrono::steady_clock::now() - begin;
     int interrupted = 0, finished = 0, early = 0;
     for (int i = 0; i < 16; ++i) {
         const int number = i % 2 == 0 ? SIGINT : SIGTERM;
-        const auto moment = whole * static_cast<int>(random() % 1000) / 1000;
+        const bool loads = i % 8 < 2;
+        const auto moment = (loads ? loading : working) * static_cast<int>(random() % 1000) / 1000;
         write_text(picture_, kOld);
-        const ChildResult result =
-            run_child(render_words({}, picture_, {"--quiet"}), [&](pid_t child) {
-                std::this_thread::sleep_for(moment);
-                kill(child, number);
-            });
-        SCOPED_TRACE("signal " + std::to_string(number) + " after " +
-                     std::to_string(std::chrono::duration<double>(moment).count()) + " s\n" +
-                     result.err);
+        const ChildResult result = run_child(words, [&](pid_t child) {
+            if (!loads) wait_until_handled(child, number);
+            std::this_thread::sleep_for(moment);
+            kill(child, number);
+        });
+        SCOPED_TRACE(fmt::format("signal {} after {} s{}\n{}", number,
+                                 std::chrono::duration<double>(moment).count(),
+                                 loads ? " of loading" : "", result.err));
         EXPECT_EQ(names_in(folder_), std::set<std::string>{"a.png"});
         if (result.signal != 0) {
-            // Before main() handles signals: libraries are being loaded.
+            EXPECT_TRUE(loads) << "main() handles signals";
             EXPECT_EQ(result.signal, number);
             EXPECT_EQ(text_of_file(picture_), kOld);
             ++early;

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <random>
 
+#include "host/certify/synthetic/run_probe.h"
 #include "host/gpu/buffer.h"
 #include "host/picture/web_in_view.h"
 #include "tests/support/ies_text.h"
@@ -43,18 +44,13 @@ std::vector<glm::dvec3> directions() {
 std::vector<float> shares_on_device(const std::vector<glm::dvec3>& from_light,
                                     const std::vector<AimedProfile>& lights, uint light,
                                     const std::vector<float>& tables, int lanes) {
-    Gpu gpu = test_gpu(lanes);
+    const Gpu gpu = test_gpu(lanes);
     std::vector<float> in;
     for (const int axis : {0, 1, 2}) {
         for (const glm::dvec3& d : from_light) in.push_back(static_cast<float>(-d[axis]));
     }
-    const cl::Program program = build_probe(gpu, kHeaders, kProbe, BuildOptions());
-    const cl::Buffer out = new_buffer(gpu, std::vector<float>(kCount));
-    const cl::NDRange items(kCount / static_cast<std::size_t>(gpu.info.lane_width));
-    cl::KernelFunctor<cl::Buffer, uint, cl::Buffer, uint, cl::Buffer, cl::Buffer>(program, "probe")(
-        cl::EnqueueArgs(gpu.queue, items), new_buffer(gpu, in), static_cast<uint>(kCount),
-        new_buffer(gpu, lights), light, new_buffer(gpu, tables), out);
-    return download<float>(gpu, out, kCount);
+    return run_probe<float>(gpu, {kHeaders, kProbe}, kCount / lanes_of(gpu), kCount, in,
+                            static_cast<uint>(kCount), lights, light, tables);
 }
 
 PhotometricWeb web_of(const IesText& ies) { return read_photometric_web(ies_text(ies), ""); }

@@ -180,6 +180,10 @@ void expect_whole_tables() {
     EXPECT_EQ(std::set<std::string>(table.columns.begin(), table.columns.end()).size(),
               table.columns.size());
     EXPECT_EQ(report_summary(rows).rows.size(), rows.size());
+    for (const ReportRow& row : rows) {
+        EXPECT_DOUBLE_EQ(row.speed.frame_ms, row.speed.relative * rows.front().speed.frame_ms)
+            << row.setting.name;
+    }
     std::map<std::string, std::size_t> points;
     for (const auto& [stem, plot] : report_plots(rows, "here")) {
         points[stem] = plot.series.size() - 1;

@@ -5,7 +5,9 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -13,10 +15,13 @@
 #include "host/base/version.h"
 #include "host/gpu/tuning/device_cache.h"
 #include "host/gpu/tuning/shipped_tunings.h"
+#include "host/measure/bench/row.h"
+#include "host/measure/bench/tune.h"
 #include "tests/support/cache_sandbox.h"
 #include "tests/support/environment_variable.h"
 #include "tests/support/messages.h"
 #include "tests/support/paths.h"
+#include "tests/support/temporary_folder.h"
 
 namespace kilolux {
 namespace {
@@ -330,6 +335,37 @@ TEST_F(ShippedTunings, AreThoseOfTheCertificates) {
                 << field.name;
     }
     EXPECT_EQ(shipped, shipped_tunings().size());
+}
+
+// The device of a table of results, and its frames by what they differ in [ms].
+struct MeasuredFrames {
+    explicit MeasuredFrames(const std::string& table) {
+        const fs::path folder = fs::path(source_root()) / "host/measure/results" / table;
+        std::ifstream context(folder / "bench.context.json");
+        device = nlohmann::json::parse(context).at("context").at("device").at("name");
+        for (const BenchRow& row : bench_rows(parse_csv(text_of_file(folder / "bench.csv")))) {
+            if (row.stage == kFrameStage.name)
+                ms[{row.point.lights, row.point.resolution}] = row.ms.median;
+        }
+    }
+    std::string device;
+    std::map<std::pair<std::uint64_t, std::array<int, 2>>, double> ms;
+};
+
+// By the rule of bench --tune, on frames that OpenGL and OpenCL drew.
+TEST_F(ShippedTunings, DrawTrianglesByWhatTablesSayIsFaster) {
+    for (const char* table : {"sponza_cpu", "sponza_h200"}) {
+        const MeasuredFrames ids(table), compute(std::string(table) + "_compute");
+        ASSERT_EQ(compute.device, ids.device);
+        ASSERT_FALSE(ids.ms.empty());
+        const auto row = std::ranges::find(shipped_tunings(), ids.device, &ShippedTuning::device);
+        ASSERT_NE(row, shipped_tunings().end()) << table;
+        for (const auto& [frame, ids_ms] : ids.ms) {
+            const bool is_faster = compute.ms.at(frame) < (1.0 - kTuningGain) * ids_ms;
+            EXPECT_EQ(row->tuning.tuning.geometry, is_faster ? 1 : 0)
+                << table << ", " << frame.first << " lights";
+        }
+    }
 }
 
 using ForcedTuning = TuningSandbox;

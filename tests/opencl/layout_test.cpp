@@ -7,6 +7,7 @@
 #include <string>
 
 #include "host/base/source.h"
+#include "host/certify/synthetic/run_probe.h"
 #include "host/gpu/buffer.h"
 #include "host/gpu/flow.h"
 #include "kernels/shared/light_drift.h"
@@ -128,18 +129,15 @@ constexpr std::string_view kHeaders[] = {
     "kernels/shared/view.h"};
 
 void expect_equal(const std::vector<Measure>& measures) {
-    Gpu gpu = test_gpu();
+    const Gpu gpu = test_gpu();
     std::string text =
         "#define OFFSET_OF(Type, member) ((size_t)((uintptr_t)&((Type*)0)->member))\n"
-        "kernel void measure(global uint* out) {\n";
+        "kernel void probe(global uint* out) {\n";
     for (std::size_t i = 0; i < measures.size(); ++i) {
         text += "    out[" + std::to_string(i) + "] = (uint)" + measures[i].expression + ";\n";
     }
-    const cl::Program program = build_probe(gpu, kHeaders, text + "}\n");
-    const cl::Buffer out = new_buffer(gpu, std::vector<uint>(measures.size(), ~0u));
-    cl::KernelFunctor<cl::Buffer>(program, "measure")(
-        cl::EnqueueArgs(gpu.queue, cl::NDRange(1), cl::NDRange(1)), out);
-    const auto found = download<uint>(gpu, out, measures.size());
+    text += "}\n";
+    const auto found = run_probe<uint>(gpu, {kHeaders, text}, 1, measures.size());
     for (std::size_t i = 0; i < measures.size(); ++i) {
         EXPECT_EQ(found[i], measures[i].expected) << measures[i].expression;
     }

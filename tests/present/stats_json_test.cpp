@@ -147,12 +147,15 @@ TEST(StatsJson, AResultStandsWholeBeforeWhatFollowsInTheSameFile) {
         dup2(file, STDOUT_FILENO);
         dup2(file, STDERR_FILENO);
         print_result(false, {}, table + "\n");
-        warn("written");
+        std::fputs("of the system\n", stderr);
+        std::fputs((table + "\n").c_str(), stdout);
+        warn("of the program");
         _exit(0);
     }
     int status = 0;
     waitpid(child, &status, 0);
-    EXPECT_EQ(text_of_file(folder / "both"), table + "\nkilolux: warning: written\n");
+    EXPECT_EQ(text_of_file(folder / "both"),
+              table + "\nof the system\n" + table + "\nkilolux: warning: of the program\n");
 }
 
 }  // namespace

@@ -105,6 +105,23 @@ TEST(Video, CodesAreTheNearest) {
     EXPECT_EQ(wrong, 0u);
 }
 
+// Vectors and the ends that fill none, of all colours one after the other.
+TEST(Video, CodesAreTheSameByAllInstructions) {
+    const std::span<const PlaneMaker> makers = plane_makers();
+    if (makers.size() < 2) GTEST_SKIP() << "this processor has no AVX2";
+    constexpr std::size_t kRow = 4099, kColours = 1 << 24;
+    std::vector<std::uint8_t> row(4 * kRow);
+    std::string first(3 * kRow, 'x'), other = first;
+    for (std::size_t begin = 0; begin < kColours; begin += kRow) {
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            row[i] = static_cast<std::uint8_t>((begin + i / 4) >> (8 * (i % 4)));
+        }
+        makers.front()(row.data(), kRow, first.data());
+        makers.back()(row.data(), kRow, other.data());
+        ASSERT_EQ(first, other) << "from colour " << begin;
+    }
+}
+
 TEST(Video, PacesAreRatios) {
     const auto text = [](double value) {
         const Ratio r = ratio_of(value);
@@ -297,8 +314,8 @@ TEST(Video, IsLeftOutWhereItIsThere) {
     const auto made = fs::last_write_time(file);
     EXPECT_TRUE(contains(skip_existing(file).err, "every file is there"));
     EXPECT_EQ(fs::last_write_time(file), made);
-    expect_refused(file, {"--resolution", "32,48"}, "size is '48x32', asked for is '32x48'");
-    expect_refused(file, {"--frames", "0:3"}, "number of frames is '3', asked for is '4'");
+    expect_refused(file, {"--resolution", "32,48"}, "size is '48x32', but '32x48' is asked for");
+    expect_refused(file, {"--frames", "0:3"}, "number of frames is '3', but '4' is asked for");
     expect_refused(file, {"--fps", "12"}, "header is 'YUV4MPEG2 W48 H32 F10:1 ");
     expect_refused(file, {"--light-seed", "9"}, "header is 'YUV4MPEG2 W48 H32 F10:1 ");
     const std::string whole = text_of_file(file);
@@ -322,7 +339,7 @@ TEST_P(FfmpegVideo, IsLeftOutWhereItIsThere) {
     const auto made = fs::last_write_time(file);
     EXPECT_TRUE(contains(skip_existing(file).err, "every file is there"));
     EXPECT_EQ(fs::last_write_time(file), made);
-    expect_refused(file, {"--resolution", "32,48"}, "size is '48x32', asked for is '32x48'");
+    expect_refused(file, {"--resolution", "32,48"}, "size is '48x32', but '32x48' is asked for");
     expect_refused(file, {"--frames", "0:3"}, "command is 'kilolux render grid ");
     expect_refused(file, {"--light-seed", "9"}, "command is 'kilolux render grid ");
     const std::string whole = text_of_file(file);

@@ -126,6 +126,8 @@ def test_three_values_for_three_lights_have_two_meanings():
 @pytest.mark.parametrize("other, words", [
     ({"range": [2.0, np.nan]}, "range of light 1 is nan; 1 of 2 lights are left out"),
     ({"range": [-1.0, 2.0]}, "range of light 0 is -1.0"),
+    ({"range": [2.0, np.inf]}, "range of light 1 is inf"),
+    ({"intensity": [[1, 1, 1], [1, -0.5, 1]]}, "intensity of light 1 is .*-0.5.*; 1 of 2 lights are left out"),
     ({"position": [[0, 1, 0], [0, np.inf, 0]]}, "position of light 1"),
 ])
 def test_lights_that_cannot_be_are_left_out_with_a_warning(other, words):

@@ -246,13 +246,19 @@ TEST(Window, WhatLiesOverThePictureFitsIntoASmallWindow) {
     EXPECT_EQ(changes(file("start"), file("probed"), {0, 0, 360, 400}).changed, 0);
     EXPECT_EQ(changes(file("start"), file("probed"), {637, 0, 3, 400}).changed, 0);
     EXPECT_GT(changes(file("start"), file("probed"), {380, 340, 240, 40}).changed, 240 * 40 / 2);
-    // The legend of the boxes' colours is in the lower left: a bar from dark violet to pale yellow.
+    // The legend of the boxes' colours is in the lower left: a bar from dark violet to pale yellow,
+    // of steps that are wider than the boxes' lines.
     const FloatImage frozen = read_image(file("frozen"));
     std::set<std::array<float, 3>> colours;
+    std::array<float, 3> last{};
+    int width = 0;
     for (int x = 370; x < 600; ++x) {
         const auto at = frozen.channels.size() * static_cast<std::size_t>(382 * 640 + x);
-        const auto* p = &frozen.values[at];
-        if (p[0] > 1.5f * p[1] && p[0] > 0.2f) colours.insert({p[0], p[1], p[2]});
+        const std::array<float, 3> p = {frozen.values[at], frozen.values[at + 1],
+                                        frozen.values[at + 2]};
+        width = p == last ? width + 1 : 1;
+        last = p;
+        if (width == 4 && p[0] > 1.5f * p[1] && p[0] > 0.2f) colours.insert(p);
     }
     EXPECT_GE(colours.size(), 8u);
 }

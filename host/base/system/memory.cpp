@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint64_t kUnknown = std::numeric_limits<std::uint64_t>::max();
 
-// The first number of a file, which may hold "max" instead.
+// The first number of a file; kUnknown if it holds "max" instead.
 std::uint64_t number_in(const std::string& file) {
     std::ifstream in(file);
     std::uint64_t value = 0;
@@ -40,14 +40,14 @@ std::uint64_t below(std::uint64_t limit, std::uint64_t used) {
     return limit - std::min(limit, used);
 }
 
-// Control groups version 2: a container sees its own group here.
+// Of control groups, version 2: a container finds its own group here.
 std::uint64_t group_available() {
     const std::string group = "/sys/fs/cgroup/memory.";
     return below(number_in(group + "max"), number_in(group + "current"));
 }
 
-// Pages of this process, in bytes: of its address space, or those that are resident.
-std::uint64_t own_pages(bool resident) {
+// Size of this process' address space, or of its resident part [byte].
+std::uint64_t process_bytes(bool resident) {
     std::ifstream in("/proc/self/statm");
     std::uint64_t all = 0, present = 0;
     if (!(in >> all >> present)) return 0;
@@ -61,7 +61,9 @@ std::uint64_t address_space_limit() {
     return limit.rlim_cur;
 }
 
-std::uint64_t address_space_available() { return below(address_space_limit(), own_pages(false)); }
+std::uint64_t address_space_available() {
+    return below(address_space_limit(), process_bytes(false));
+}
 
 }  // namespace
 
@@ -69,16 +71,16 @@ std::uint64_t available_memory_bytes() {
     return std::min({system_available(), group_available(), address_space_available()});
 }
 
-std::uint64_t resident_memory_bytes() { return own_pages(true); }
+std::uint64_t resident_memory_bytes() { return process_bytes(true); }
 
 void require_address_space(std::uint64_t bytes, const std::string& what) {
-    // A stack, and PoCL's local memory.
-    constexpr std::uint64_t kThread = std::uint64_t{28} << 20;
+    constexpr std::uint64_t kThreadBytes = std::uint64_t{28}
+                                           << 20;  // stack and PoCL's local memory
     constexpr int kArenas = 2;
     const std::uint64_t limit = address_space_limit();
     if (limit == kUnknown) return;
     mallopt(M_ARENA_MAX, kArenas);
-    const std::uint64_t need = bytes + kThread * std::thread::hardware_concurrency();
+    const std::uint64_t need = bytes + kThreadBytes * std::thread::hardware_concurrency();
     const std::uint64_t left = address_space_available();
     if (left >= need) return;
     throw Error("memory: " + what + " needs " + mebibytes(need) + " of address space, " +

@@ -11,13 +11,13 @@ namespace kilolux {
 /// unknown.
 std::uint64_t available_memory_bytes();
 
-/// Memory that this process holds: its resident pages [byte].
+/// Resident memory of this process [byte].
 std::uint64_t resident_memory_bytes();
 
-/// Throws Error where the limit of the address space (ulimit -v) leaves less than `bytes` and a
-/// stack for each core to `what` ("the library of images"). Asked before libraries are loaded that
-/// crash or wait for ever where they get less. Under such a limit threads share malloc's arenas
-/// from then on: each would reserve 64 MiB.
+/// Throws Error if the limit of the address space (ulimit -v) leaves less than `bytes` and a stack
+/// for each core. Call it before loading `what` ("the library of images"), which would crash or
+/// never return with less. If there is a limit, all threads share two of malloc's arenas
+/// afterwards: an arena reserves 64 MiB.
 void require_address_space(std::uint64_t bytes, const std::string& what);
 
 /// "1536 MiB", rounded up.

@@ -8,7 +8,7 @@
 
 #include "host/certify/cases.h"
 #include "host/certify/opengl_beside.h"
-#include "host/certify/synthetic/probe.h"
+#include "host/certify/synthetic/run_probe.h"
 #include "host/gpu/buffer.h"
 #include "host/scene/camera.h"
 #include "raster/compute_probe.h"
@@ -37,16 +37,13 @@ void main() {
 }
 )";
 
-std::vector<uint> slices_of_device(Gpu gpu, const ClusterGrid& grid, std::vector<float> z) {
+std::vector<uint> slices_of_device(const Gpu& gpu, const ClusterGrid& grid, std::vector<float> z) {
     const std::size_t count = z.size();
     z.resize(round_up(count, 16), 1.0f);
-    const cl::Buffer out = new_buffer(gpu, std::vector<uint>(z.size(), ~0u));
-    cl::KernelFunctor<ClusterGrid, cl::Buffer, cl::Buffer> kernel(
-        build_probe(gpu, kSliceHeaders, kSliceProbe), "probe");
-    const auto lanes = static_cast<std::size_t>(gpu.info.lane_width);
-    kernel(cl::EnqueueArgs(gpu.queue, cl::NDRange(z.size() / lanes)), grid, new_buffer(gpu, z),
-           out);
-    return download<uint>(gpu, out, count);
+    auto slices = run_probe<uint>(gpu, {kSliceHeaders, kSliceProbe}, z.size() / lanes_of(gpu),
+                                  z.size(), grid, z);
+    slices.resize(count);
+    return slices;
 }
 
 std::vector<float> depths_to_slice(const ClusterGrid& grid, bool random_ones) {

@@ -7,7 +7,7 @@
 
 #include "host/certify/cases.h"
 #include "host/certify/opengl_beside.h"
-#include "host/certify/synthetic/probe.h"
+#include "host/certify/synthetic/run_probe.h"
 #include "host/gpu/buffer.h"
 #include "raster/compute_probe.h"
 
@@ -80,16 +80,12 @@ std::vector<float4> hard_directions() {
 
 constexpr std::size_t kSpecialDirections = 52;
 
-std::vector<float4> decoded_by_device(Gpu gpu, std::vector<uint> codes) {
+std::vector<float4> decoded_by_device(const Gpu& gpu, std::vector<uint> codes) {
     const std::size_t count = codes.size();
     codes.resize(round_up(count, 16), 0u);
-    const cl::Buffer out = new_buffer(gpu, std::vector<float>(3 * codes.size()));
-    cl::KernelFunctor<cl::Buffer, uint, cl::Buffer> kernel(build_probe(gpu, kOctHeaders, kOctProbe),
-                                                           "probe");
-    const auto lanes = static_cast<std::size_t>(gpu.info.lane_width);
-    kernel(cl::EnqueueArgs(gpu.queue, cl::NDRange(codes.size() / lanes)), new_buffer(gpu, codes),
-           static_cast<uint>(codes.size()), out);
-    const auto planes = download<float>(gpu, out, 3 * codes.size());
+    const auto planes =
+        run_probe<float>(gpu, {kOctHeaders, kOctProbe}, codes.size() / lanes_of(gpu),
+                         3 * codes.size(), codes, static_cast<uint>(codes.size()));
     std::vector<float4> normals;
     for (std::size_t i = 0; i < count; ++i) {
         normals.push_back(

@@ -21,8 +21,8 @@ void set(OIIO::ImageSpec& spec, const std::string& name, const ImageAttribute& v
     if (const auto* number = std::get_if<int>(&value)) spec.attribute(name, *number);
     if (const auto* text = std::get_if<std::string>(&value)) spec.attribute(name, *text);
     if (const auto* matrix = std::get_if<glm::mat4>(&value)) {
-        // Column-major with column vectors is, byte for byte, the row-major with row vectors of
-        // OpenEXR.
+        // The same bytes: glm stores columns of a matrix for column vectors, OpenEXR rows of a
+        // matrix for row vectors.
         spec.attribute(name, OIIO::TypeDesc::TypeMatrix, &(*matrix)[0][0]);
     }
     if (const auto* values = std::get_if<std::vector<float>>(&value)) {
@@ -56,19 +56,20 @@ OIIO::ImageSpec spec_of(const ImageLayout& layout) {
     return spec;
 }
 
-// Mixed channels go in as they are: OpenImageIO would scale integers to 0..1.
+// The type of the pixels that OpenImageIO gets: unknown for mixed channels, since it would scale
+// their integers to 0..1.
 OIIO::TypeDesc type_in(const OIIO::ImageSpec& spec) {
     return spec.channelformats.empty() ? spec.format : OIIO::TypeUnknown;
 }
 
 [[noreturn]] void fail(const std::string& name, const std::string& reason) {
-    throw Error(name + ": cannot encode: " + reason);
+    throw Error(name + ": cannot encode: " + one_line(reason));
 }
 
-// A writer of the format, not open, which writes to `proxy`.
+// A writer of the format that is to write to `proxy`; it is not open yet.
 std::unique_ptr<OIIO::ImageOutput> create_output(const std::string& name, const std::string& format,
                                                  OIIO::Filesystem::IOProxy& proxy) {
-    // Silences the remark about attributes that a format leaves out.
+    // Without this, OpenImageIO prints which attributes a format cannot hold.
     OIIO::attribute("debug", 0);
     std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(format);
     if (!out) fail(name, OIIO::geterror());
@@ -76,7 +77,7 @@ std::unique_ptr<OIIO::ImageOutput> create_output(const std::string& name, const 
     return out;
 }
 
-// Writes to a descriptor. Keeps the first error, after which nothing is written.
+// Writes to a descriptor until an error, which it keeps.
 class DescriptorProxy : public OIIO::Filesystem::IOProxy {
  public:
     explicit DescriptorProxy(int file) : IOProxy("", Write), file_(file) {}
@@ -112,12 +113,12 @@ class DescriptorProxy : public OIIO::Filesystem::IOProxy {
     int error_ = 0;  // of errno
 };
 
-// Writes the rows of an OpenEXR file, compressed in threads: OpenImageIO hands OpenEXR 16 MB at a
-// time, which in a wide picture are blocks for a few threads only. Pieces of the picture are coded
-// as files of their own, whose blocks are those of the whole.
+// Compresses the rows of an OpenEXR file in all threads. OpenImageIO hands OpenEXR 16 MB at a time,
+// which in a wide picture are blocks for a few threads only. So each piece of the picture becomes a
+// file in memory, and its blocks are copied to the whole file.
 class ExrRows {
  public:
-    /// `proxy` has got the header of the file and the table of its blocks, empty.
+    /// `proxy`: the file, after its header and the empty table of its blocks.
     ExrRows(std::string name, const OIIO::ImageSpec& spec, OIIO::Filesystem::IOProxy& proxy)
         : name_(std::move(name)), spec_(spec), proxy_(proxy), table_end_(proxy.tell()) {}
 
@@ -127,7 +128,7 @@ class ExrRows {
         const std::size_t row_bytes = static_cast<std::size_t>(spec_.width) * pixel_stride;
         const int fitting = static_cast<int>(kPiece / row_bytes) / kFileBlockRows;
         const int piece = std::max(fitting, 1) * kFileBlockRows;
-        // Each takes the memory of four at most; all together take that of the rows twice.
+        // A piece takes four times its memory at most; all pieces take twice that of the rows.
         const int most = (rows / piece + 1) / 2;
         const int threads = tbb::this_task_arena::max_concurrency();
         int next = 0, done = 0;
@@ -142,7 +143,7 @@ class ExrRows {
         const auto put = [&](Blocks blocks) {
             append(std::move(blocks), begin + std::exchange(done, done + piece));
         };
-        // While it waits the thread takes no other picture to code.
+        // Otherwise a waiting thread may begin another picture, and need memory for both.
         tbb::this_task_arena::isolate([&] {
             tbb::parallel_pipeline(
                 static_cast<std::size_t>(std::clamp(most, 1, threads)),
@@ -152,7 +153,7 @@ class ExrRows {
         });
     }
 
-    /// After the last row.
+    /// Fills in the table of blocks. Call it after the last row.
     void write_table() {
         const std::size_t bytes = places_.size() * sizeof places_[0];
         proxy_.seek(table_end_ - static_cast<std::int64_t>(bytes));
@@ -160,12 +161,12 @@ class ExrRows {
     }
 
  private:
-    // Blocks as the file has them, from `begin` on.
+    // A file in memory, whose blocks begin at `begin`.
     struct Blocks {
         std::vector<unsigned char> bytes{};
         std::size_t begin = 0;
     };
-    // What precedes a block's data.
+    // The beginning of a block, before its data.
     struct BlockHead {
         std::int32_t row;
         std::int32_t bytes;
@@ -188,7 +189,7 @@ class ExrRows {
         return out;
     }
 
-    // Puts blocks of rows from `row` on to the end of the file.
+    // Appends the blocks of a piece whose first row is `row`.
     void append(Blocks blocks, int row) {
         for (std::size_t at = blocks.begin; at < blocks.bytes.size();) {
             BlockHead head;
@@ -208,7 +209,7 @@ class ExrRows {
     std::vector<std::uint64_t> places_{};  // of the blocks in the file
 };
 
-// Whether ExrRows writes the file. Threads would only copy what is not compressed.
+// Whether ExrRows writes the file: uncompressed ones leave threads nothing to do.
 bool has_exr_rows(const std::string& format, const OIIO::ImageSpec& spec) {
     return format == "openexr" && spec.get_string_attribute("compression") != "none";
 }
@@ -241,7 +242,7 @@ class FileWriter : public ImageWriter {
     }
 
  private:
-    // The system's reason is better than that of the format's library.
+    // An error of the system is reported in place of what the format's library makes of it.
     void check(bool is_written) {
         if (is_written && proxy_.error() == 0) return;
         const std::string reason = out_->geterror();
@@ -250,7 +251,8 @@ class FileWriter : public ImageWriter {
         throw Error(name_ + ": cannot write: " + std::strerror(proxy_.error()));
     }
 
-    // Keeps a writer that failed: to end a file without rows, libpng prints an error of its own.
+    // Keeps a writer that failed for ever: its destructor ends the file, for which libpng prints an
+    // error of its own if rows are missing.
     void abandon() {
         static std::mutex mutex;
         static auto* const abandoned = new std::vector<std::unique_ptr<OIIO::ImageOutput>>;
@@ -261,7 +263,7 @@ class FileWriter : public ImageWriter {
     std::string name_;
     OIIO::ImageSpec spec_;
     DescriptorProxy proxy_;
-    std::unique_ptr<OIIO::ImageOutput> out_;  // writes its end when it is destroyed, too
+    std::unique_ptr<OIIO::ImageOutput> out_;  // its destructor writes, too
     std::optional<ExrRows> exr_{};            // of such a file
     int next_ = 0;                            // row
 };

@@ -21,6 +21,18 @@ OIIO::TypeDesc type_of(SampleType type) {
     return OIIO::TypeDesc::FLOAT;
 }
 
+std::string one_line(const std::string& reasons) {
+    std::string out;
+    for (const char c : reasons) {
+        if (c == '\n') {
+            out += "; ";
+        } else {
+            out += c;
+        }
+    }
+    return out;
+}
+
 }  // namespace kilolux::oiio
 
 const kilolux::ImageLibrary kilolux_images{

@@ -10,6 +10,9 @@ namespace kilolux::oiio {
 
 OIIO::TypeDesc type_of(SampleType type);
 
+/// The lines of OpenImageIO's reasons with "; " between them.
+std::string one_line(const std::string& reasons);
+
 std::vector<unsigned char> encode_pixels(const std::string& name, const std::string& format,
                                          const ImageLayout& layout,
                                          std::span<const unsigned char> pixels,

@@ -58,6 +58,22 @@ OIIO::ImageSpec as_stored() {
     return wanted;
 }
 
+// Throws Error, begun by `where`, for a PNG file that lacks its last chunk: libpng would print
+// lines of its own. Chunks are length, name, data and checksum (PNG specification, 5.3).
+void refuse_cut_png(OIIO::Filesystem::IOProxy& file, const std::string& where) {
+    constexpr std::size_t kSignature = 8, kBesideData = 12;  // [byte]
+    unsigned char head[8];
+    if (file.pread(head, 8, 0) != 8 || std::memcmp(head, "\x89PNG\r\n\x1a\n", 8) != 0) return;
+    for (std::size_t at = kSignature; at + kBesideData <= file.size();) {
+        file.pread(head, sizeof head, static_cast<std::int64_t>(at));
+        if (std::memcmp(head + 4, "IEND", 4) == 0) return;
+        std::size_t length = 0;
+        for (int i = 0; i < 4; ++i) length = length << 8 | head[i];
+        at += kBesideData + length;
+    }
+    throw Error(where + "the file is cut off");
+}
+
 // The WebP file with its alpha flag cleared; empty for a file without alpha. With the flag set,
 // OpenImageIO 2.4 multiplies colours by alpha in 8 bits; without it, it reads them as stored. RFC
 // 9649: the flag is in the chunk VP8X, or in the header of a lossless file's one chunk.
@@ -94,10 +110,8 @@ class Reader : public ImageReader {
     const ImageLayout& layout() const override { return layout_; }
 
     void read(int begin, int end, SampleType type, void* out, std::size_t stride) override {
-        if (!input_->read_image(0, 0, begin, end, type_of(type), out,
-                                static_cast<OIIO::stride_t>(stride))) {
-            throw Error(where_ + input_->geterror());
-        }
+        const auto step = static_cast<OIIO::stride_t>(stride);
+        if (!input_->read_image(0, 0, begin, end, type_of(type), out, step)) fail();
         if (colors_ && begin < 3) colors_->read(begin, std::min(end, 3), type, out, stride);
     }
 
@@ -108,11 +122,22 @@ class Reader : public ImageReader {
         if (!input_->read_scanlines(0, 0, spec.y + first, spec.y + first + rows, 0, 0,
                                     spec.nchannels, type, out, OIIO::AutoStride,
                                     static_cast<OIIO::stride_t>(row_stride))) {
-            throw Error(where_ + input_->geterror());
+            fail();
         }
     }
 
+    // libjpeg fills what is cut off, with an error that only has_error() shows.
+    void check_end() override {
+        const OIIO::ImageSpec& spec = input_->spec();
+        std::vector<unsigned char> row(spec.scanline_bytes(true));
+        const int end = spec.y + spec.height;
+        const bool is_read = input_->read_native_scanlines(0, 0, end - 1, end, 0, row.data());
+        if (!is_read || input_->has_error()) fail();
+    }
+
  private:
+    [[noreturn]] void fail() const { throw Error(where_ + one_line(input_->geterror())); }
+
     std::unique_ptr<OIIO::Filesystem::IOMemReader> memory_;  // outlives input_, which reads it
     std::unique_ptr<OIIO::ImageInput> input_;
     std::string where_;  // begins its errors
@@ -126,13 +151,15 @@ class Reader : public ImageReader {
 std::unique_ptr<ImageReader> open_image(const std::filesystem::path& file) {
     const std::string where = file.string() + ": cannot read the image: ";
     const OIIO::ImageSpec wanted = as_stored();
+    OIIO::Filesystem::IOFile bytes(file.string(), OIIO::Filesystem::IOProxy::Read);
+    if (bytes.opened()) refuse_cut_png(bytes, where);
     auto input = OIIO::ImageInput::open(file.string(), &wanted);
-    if (!input) throw Error(where + OIIO::geterror());
+    if (!input) throw Error(where + one_line(OIIO::geterror()));
     const bool is_webp = input->format_name() == std::string_view("webp");
     auto reader = std::make_unique<Reader>(nullptr, std::move(input), where);
     if (is_webp) {
-        std::ifstream bytes(file, std::ios::binary);
-        const std::vector<char> webp(std::istreambuf_iterator<char>(bytes), {});
+        std::ifstream in(file, std::ios::binary);
+        const std::vector<char> webp(std::istreambuf_iterator<char>(in), {});
         reader->keep_colors_of({reinterpret_cast<const unsigned char*>(webp.data()), webp.size()});
     }
     return reader;
@@ -147,9 +174,10 @@ std::unique_ptr<ImageReader> open_encoded(const std::string& format,
     }
     auto memory = std::make_unique<OIIO::Filesystem::IOMemReader>(
         OIIO::cspan<unsigned char>(bytes.data(), static_cast<std::ptrdiff_t>(bytes.size())));
+    refuse_cut_png(*memory, "");
     OIIO::ImageSpec spec;
     if (!input->set_ioproxy(memory.get()) || !input->open("image." + format, spec, as_stored())) {
-        throw Error(input->geterror());
+        throw Error(one_line(input->geterror()));
     }
     auto reader = std::make_unique<Reader>(std::move(memory), std::move(input), "");
     if (format == "webp") reader->keep_colors_of(bytes);

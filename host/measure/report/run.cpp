@@ -33,6 +33,9 @@ double noise_of(std::vector<double> times) {
     return ratio_of(notch(times), quantile(times, 0.5));
 }
 
+// From which relative difference on times differ.
+double cost_resolution(double noise) { return std::max(kCostResolution, 2.0 * noise); }
+
 double shading_ms(const ReportSpeed& speed) {
     for (const ReportStage& stage : speed.stages) {
         if (group_of(stage.name) == StageGroup::shading) return stage.ms.median;
@@ -249,8 +252,7 @@ std::vector<std::size_t> front_of(const std::vector<ReportRow>& rows, const RowE
         if (e) noises.push_back(row.speed.noise);
     }
     if (noises.empty()) return {};
-    const double noise = statistics(noises).median;
-    return pareto_set(points, {std::max(kCostResolution, 2.0 * noise), kErrorResolution});
+    return pareto_set(points, {cost_resolution(statistics(noises).median), kErrorResolution});
 }
 
 void mark_fronts(std::vector<ReportRow>& rows) {
@@ -265,9 +267,8 @@ const ReportRow* row_that_beats_default(const std::vector<ReportRow>& rows) {
     if (!standard) return nullptr;
     const ReportRow* found = nullptr;
     for (const ReportRow& row : rows) {
-        const double resolution = std::max(kCostResolution, 2.0 * row.speed.noise);
         const std::optional<double> error = surfaces_rmse(row);
-        const bool beats = row.speed.relative < 1.0 - resolution && error &&
+        const bool beats = row.speed.relative < 1.0 - cost_resolution(row.speed.noise) && error &&
                            *error <= (1.0 + kErrorResolution) * *standard;
         if (beats && (!found || row.speed.relative < found->speed.relative)) found = &row;
     }

@@ -8,6 +8,7 @@
 
 #include "host/base/error.h"
 #include "host/base/log.h"
+#include "host/render/plan/memory_plan.h"
 
 namespace kilolux {
 
@@ -21,6 +22,12 @@ std::vector<DeviceShare> shares_of(const std::vector<std::string>& devices) {
     return out;
 }
 
+void share_memory(RenderSettings& settings, std::size_t devices) {
+    if (devices < 2) return;
+    settings.max_memory_bytes = memory_limit(settings);
+    settings.memory_shares = static_cast<int>(devices);
+}
+
 std::string share_lines(const std::vector<DeviceShare>& shares) {
     bool by_rows = false;
     for (const DeviceShare& share : shares) by_rows |= share.rows > 0;
@@ -28,7 +35,7 @@ std::string share_lines(const std::vector<DeviceShare>& shares) {
     for (const DeviceShare& share : shares) {
         const std::string made =
             by_rows ? fmt::format("{} rows in {:.2f} ms", share.rows, share.stats.frame_ms)
-                    : fmt::format("{} pictures", share.pictures);
+                    : fmt::format("{} pictures", share.finished);
         out += fmt::format("{}device {}: {}", out.empty() ? "" : "\n", device_text(share), made);
     }
     return out;
@@ -39,7 +46,7 @@ nlohmann::ordered_json shares_json(const std::vector<DeviceShare>& shares) {
     for (const DeviceShare& share : shares) {
         out.push_back({{"index", share.index},
                        {"name", share.info.name},
-                       {"pictures", share.pictures},
+                       {"pictures", share.finished},
                        {"rows", share.rows},
                        {"rows_ms", share.stats.frame_ms},
                        {"failure", failure_json(share)}});

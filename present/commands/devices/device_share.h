@@ -12,6 +12,7 @@
 
 #include "host/gpu/device.h"
 #include "host/picture/frame.h"
+#include "host/render/settings.h"
 #include "present/commands/devices/shared_tasks.h"
 
 namespace kilolux {
@@ -20,7 +21,7 @@ namespace kilolux {
 struct DeviceShare {
     std::string index;  // of --list-devices
     DeviceInfo info{};
-    std::size_t pictures = 0;  // whole ones; of a report, settings whose errors it measured
+    std::size_t finished = 0;  // whole pictures; of a report, settings whose errors it measured
     bool has_timed = false;    // all settings of a report
     // Of a picture that is made by rows.
     int rows = 0;
@@ -33,6 +34,9 @@ std::string device_text(const DeviceShare& share);
 
 /// The shares of the devices with these indices; they have done nothing.
 std::vector<DeviceShare> shares_of(const std::vector<std::string>& devices);
+
+/// Gives each of `devices` renderers that work at once an equal part of the memory for all.
+void share_memory(RenderSettings& settings, std::size_t devices);
 
 /// "device 0 (its name): 540 rows in 12.3 ms" or "7 pictures", a line a device.
 std::string share_lines(const std::vector<DeviceShare>& shares);

@@ -24,19 +24,30 @@ struct Comparing {
     const ReportJob& job;
     SharedTasks queue{0, job.settings.size(), job.settings.size()};
     std::vector<ComparedRow> rows = std::vector<ComparedRow>(job.settings.size());
+    RenderSettings memory{};  // max_memory_bytes and memory_shares, while all compare
 };
+
+ComparedRow compared_row(const Comparing& all, const ReportSetting& asked,
+                         const ReportDevice& device) {
+    ReportSetting setting = asked;
+    setting.settings.max_memory_bytes = all.memory.max_memory_bytes;
+    setting.settings.memory_shares = all.memory.memory_shares;
+    ComparedRow row = all.run.compare(setting, device);
+    row.row.setting = asked;  // one device alone measures its time
+    return row;
+}
 
 // Compares settings until none is left, or the device fails, which throws.
 void compare_settings(Comparing& all, const ReportDevice& device, DeviceShare& share) {
     while (const std::optional<std::size_t> i = all.queue.take()) {
         try {
             check_interrupt();
-            all.rows[*i] = all.run.compare(all.job.settings[*i], device);
+            all.rows[*i] = compared_row(all, all.job.settings[*i], device);
         } catch (...) {
             all.queue.give_back(*i);
             throw;
         }
-        ++share.pictures;
+        ++share.finished;
         all.queue.deliver(*i, all.job.on_progress);
     }
 }
@@ -45,6 +56,8 @@ std::vector<ComparedRow> compare_on(std::vector<DeviceShare>& shares,
                                     std::atomic<std::size_t>& left, ReportRun& run,
                                     const ReportJob& job) {
     Comparing all{run, job};
+    all.memory = job.settings.front().settings;
+    share_memory(all.memory, shares.size());
     run_shares(shares, left, all.queue, [&](std::size_t i) {
         const ReportDevice device = i == 0 ? run.device() : opened_device(shares[i], job.view);
         compare_settings(all, device, shares[i]);
@@ -86,21 +99,21 @@ SharedReport measure_on(const std::vector<std::string>& devices, ReportRun& run,
     return out;
 }
 
-std::string report_lines(const std::vector<DeviceShare>& shares) {
+std::string device_lines(const std::vector<DeviceShare>& shares) {
     std::string out;
     for (const DeviceShare& share : shares) {
         out += fmt::format("device {}: errors of {} settings{}{}\n", device_text(share),
-                           share.pictures, share.has_timed ? ", all times" : "",
+                           share.finished, share.has_timed ? ", all times" : "",
                            share.failure.empty() ? "" : "; left out: " + share.failure);
     }
     return out;
 }
 
-nlohmann::ordered_json report_json(const std::vector<DeviceShare>& shares) {
+nlohmann::ordered_json devices_json(const std::vector<DeviceShare>& shares) {
     auto out = nlohmann::ordered_json::array();
     for (const DeviceShare& share : shares) {
         out.push_back({{"device", device_text(share)},
-                       {"settings", share.pictures},
+                       {"settings", share.finished},
                        {"times", share.has_timed},
                        {"failure", failure_json(share)}});
     }

@@ -35,9 +35,9 @@ SharedReport measure_on(const std::vector<std::string>& devices, ReportRun& run,
                         const ReportJob& job);
 
 /// "device 0 (its name): errors of 7 settings, all times", a line a device.
-std::string report_lines(const std::vector<DeviceShare>& shares);
+std::string device_lines(const std::vector<DeviceShare>& shares);
 
 /// The list of the report's context.
-nlohmann::ordered_json report_json(const std::vector<DeviceShare>& shares);
+nlohmann::ordered_json devices_json(const std::vector<DeviceShare>& shares);
 
 }  // namespace kilolux

@@ -26,7 +26,8 @@ class Lights:
     kind       "point", "spot" or "directional"
 
     Arrays are read when the lights are given to Renderer(), change() or light(). Lights that cannot
-    be used (not finite, a negative range) are left out with a warning; a frame's stats count them.
+    be used (not finite, a negative intensity or range) are left out with a warning; a frame's stats
+    count them.
     """
 
     position: ArrayLike
@@ -61,9 +62,10 @@ class Lights:
 
     def _made(self) -> Any:
         values = self._values()
-        bad = {name: ~np.isfinite(array).all(axis=1)
-               for name, array in values.items() if name in ("position", "intensity")}
-        bad["range"] = ~(values["range"] >= 0)
+        good = {name: np.isfinite(values[name]) for name in ("position", "intensity", "range")}
+        for name in ("intensity", "range"):
+            good[name] &= values[name] >= 0
+        bad = {name: ~np.atleast_2d(rows.T).all(axis=0) for name, rows in good.items()}
         for name, rows in bad.items():
             if rows.any():
                 first = int(np.argmax(rows))

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "host/certify/synthetic/host_lists.h"
+#include "host/certify/synthetic/run_probe.h"
 #include "host/gpu/buffer.h"
 #include "host/stages/lists/build_clusters.h"
 #include "tests/support/slice_search.h"
@@ -18,7 +19,7 @@ namespace {
 
 constexpr std::string_view kHeaders[] = {"kernels/device/lanes.h", "kernels/shared/cluster_grid.h"};
 constexpr std::string_view kProbe = R"(
-kernel void slices(ClusterGrid grid, global const float* z, global uint* out) {
+kernel void probe(ClusterGrid grid, global const float* z, global uint* out) {
     size_t first = get_global_id(0) * VW;
     lane_store(slice_of_depth(grid, lane_load(z + first)), out + first);
 }
@@ -33,16 +34,13 @@ std::vector<GridRequest> requests() {
 }
 
 std::vector<uint> device_slices(int lanes, const ClusterGrid& grid, std::vector<float> z) {
-    Gpu gpu = test_gpu(lanes);
-    const cl::Program program = build_probe(gpu, kHeaders, kProbe);
     const std::size_t count = z.size();
     z.resize(round_up(count, 16), 1.0f);
-    const cl::Buffer in = new_buffer(gpu, z);
-    const cl::Buffer out = new_buffer(gpu, std::vector<uint>(z.size(), ~0u));
-    cl::KernelFunctor<ClusterGrid, cl::Buffer, cl::Buffer>(program, "slices")(
-        cl::EnqueueArgs(gpu.queue, cl::NDRange(z.size() / static_cast<std::size_t>(lanes))), grid,
-        in, out);
-    return download<uint>(gpu, out, count);
+    const Gpu gpu = test_gpu(lanes);
+    auto slices =
+        run_probe<uint>(gpu, {kHeaders, kProbe}, z.size() / lanes_of(gpu), z.size(), grid, z);
+    slices.resize(count);
+    return slices;
 }
 
 // Every slice's end and what lies up to 200 steps of the float beside it.

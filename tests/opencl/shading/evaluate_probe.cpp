@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/opencl/shading/evaluate_probe.h"
 
+#include "host/certify/synthetic/run_probe.h"
 #include "host/gpu/buffer.h"
 #include "tests/support/test_gpu.h"
 
@@ -82,7 +83,7 @@ std::vector<T> copy_of(std::span<const T> values) {
 
 ProbeResult probe_evaluate(const std::vector<SurfaceD>& surfaces, const Lighting& lighting,
                            int lanes) {
-    Gpu gpu = test_gpu(lanes);
+    const Gpu gpu = test_gpu(lanes);
     const std::size_t count = round_up(surfaces.size(), 16);
     ProbeResult result;
     std::vector<float> in(19 * count, 0.5f);
@@ -91,22 +92,17 @@ ProbeResult probe_evaluate(const std::vector<SurfaceD>& surfaces, const Lighting
         for (std::size_t row = 0; row < rows.size(); ++row) in[row * count + i] = rows[row];
         result.surfaces.push_back(surface_of(rows));
     }
-    const cl::Program program = build_probe(gpu, kHeaders, kProbe,
-                                            BuildOptions()
-                                                .define("SHADING", lighting.shading)
-                                                .define("HAS_METALLIC", 1)
-                                                .define("HAS_SPECULAR", 1)
-                                                .define("HAS_SPOT_LIGHTS", 1));
-    const cl::Buffer out = new_buffer(gpu, std::vector<float>(3 * count));
-    const cl::NDRange items(count / static_cast<std::size_t>(gpu.info.lane_width));
-    cl::KernelFunctor<cl::Buffer, uint, cl::Buffer, uint, cl::Buffer, uint, float, uint,
-                      cl::Buffer>(program, "probe")(
-        cl::EnqueueArgs(gpu.queue, items), new_buffer(gpu, in), static_cast<uint>(count),
-        new_buffer(gpu, copy_of(lighting.lights)), static_cast<uint>(lighting.lights.size()),
-        new_buffer(gpu, copy_of(lighting.directional)),
-        static_cast<uint>(lighting.directional.size()), static_cast<float>(lighting.ambient),
-        lighting.orthographic ? 1u : 0u, out);
-    const auto found = download<float>(gpu, out, 3 * count);
+    const BuildOptions options = BuildOptions()
+                                     .define("SHADING", lighting.shading)
+                                     .define("HAS_METALLIC", 1)
+                                     .define("HAS_SPECULAR", 1)
+                                     .define("HAS_SPOT_LIGHTS", 1);
+    const auto found =
+        run_probe<float>(gpu, {kHeaders, kProbe, options}, count / lanes_of(gpu), 3 * count, in,
+                         static_cast<uint>(count), copy_of(lighting.lights),
+                         static_cast<uint>(lighting.lights.size()), copy_of(lighting.directional),
+                         static_cast<uint>(lighting.directional.size()),
+                         static_cast<float>(lighting.ambient), lighting.orthographic ? 1u : 0u);
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
         result.radiance.push_back({found[i], found[count + i], found[2 * count + i]});
     }
@@ -115,7 +111,7 @@ ProbeResult probe_evaluate(const std::vector<SurfaceD>& surfaces, const Lighting
 
 std::vector<float> probe_pow_of_cos2(const std::vector<float>& sin2, const std::vector<float>& n,
                                      int lanes) {
-    Gpu gpu = test_gpu(lanes);
+    const Gpu gpu = test_gpu(lanes);
     const std::size_t count = round_up(sin2.size(), 16);
     std::vector<float> padded_sin2 = sin2;
     std::vector<float> padded_n = n;
@@ -124,13 +120,10 @@ std::vector<float> probe_pow_of_cos2(const std::vector<float>& sin2, const std::
     std::vector<float> cos2;
     cos2.reserve(count);
     for (const float s : padded_sin2) cos2.push_back(static_cast<float>(1.0 - double{s}));
-    const cl::Program program = build_probe(gpu, kHeaders, kPowProbe);
-    const cl::Buffer out = new_buffer(gpu, std::vector<float>(count));
-    cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer>(program, "probe")(
-        cl::EnqueueArgs(gpu.queue,
-                        cl::NDRange(count / static_cast<std::size_t>(gpu.info.lane_width))),
-        new_buffer(gpu, cos2), new_buffer(gpu, padded_sin2), new_buffer(gpu, padded_n), out);
-    return download<float>(gpu, out, sin2.size());
+    auto powers = run_probe<float>(gpu, {kHeaders, kPowProbe}, count / lanes_of(gpu), count, cos2,
+                                   padded_sin2, padded_n);
+    powers.resize(sin2.size());
+    return powers;
 }
 
 }  // namespace kilolux

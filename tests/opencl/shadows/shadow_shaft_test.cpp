@@ -8,9 +8,9 @@
 #include <glm/glm.hpp>
 #include <random>
 
-#include "host/certify/synthetic/probe.h"
+#include "host/certify/synthetic/run_probe.h"
 #include "host/gpu/buffer.h"
-#include "tests/support/test_gpu.h"
+#include "tests/support/every_width.h"
 
 namespace kilolux {
 namespace {
@@ -19,7 +19,7 @@ constexpr std::string_view kHeaders[] = {"kernels/shadows/shadow_triangle.h",
                                          "kernels/shadows/shadow_shaft.h"};
 // 1: the triangle hides the box's high corner, as a ray's test finds it; 2: the shaft keeps it.
 constexpr std::string_view kProbe = R"(
-kernel void hidden_and_kept(global const float* in, global int* out) {
+kernel void probe(global const float* in, global int* out) {
     size_t i = get_global_id(0);
     FV3 v[3];
     for (uint k = 0; k < 3; ++k) v[k] = splat3(vload3(6 * i + k, in));
@@ -29,10 +29,10 @@ kernel void hidden_and_kept(global const float* in, global int* out) {
     ShadowTriangles t = set_up_shadow(v, light, 4.0f, &sure);
     FV3 p = splat3(high);
     FV3 to = sub3(p, splat3(light.at));
-    bool hides = dot3(t.plane.g, p) + t.plane.c >= -1.0f;
-    for (uint k = 0; k < 3; ++k) hides = hides && dot3(t.edge[k].g, to) >= -size3(to);
+    MASK hides = lane_mask(dot3(t.plane.g, p) + t.plane.c >= fv(-1.0f));
+    for (uint k = 0; k < 3; ++k) hides &= lane_mask(dot3(t.edge[k].g, to) >= -size3(to));
     bool keeps = lane_any(may_shade(make_shaft(light, low, high), &t));
-    out[i] = (hides ? 1 : 0) | (keeps ? 2 : 0);
+    out[i] = (lane_any(hides) ? 1 : 0) | (keeps ? 2 : 0);
 }
 )";
 
@@ -65,14 +65,12 @@ std::vector<float> triangles_beside_rays(std::size_t count) {
 
 TEST(ShadowShaft, KeepsTrianglesThatHideAPoint) {
     constexpr std::size_t kCount = 20000;
-    Gpu gpu = test_gpu(1);
-    const cl::Program program = build_probe(gpu, kHeaders, kProbe);
-    const cl::Buffer out = new_buffer(gpu, std::vector<int>(kCount, 7));
-    cl::KernelFunctor<cl::Buffer, cl::Buffer>(program, "hidden_and_kept")(
-        cl::EnqueueArgs(gpu.queue, cl::NDRange(kCount)),
-        new_buffer(gpu, triangles_beside_rays(kCount)), out);
+    const std::vector<float> in = triangles_beside_rays(kCount);
+    const auto all = at_every_width([&](const Gpu& gpu) {
+        return run_probe<int>(gpu, {kHeaders, kProbe}, kCount, kCount, in);
+    });
     int hidden = 0;
-    for (const int found : download<int>(gpu, out, kCount)) {
+    for (const int found : all) {
         ASSERT_NE(found, 1);
         hidden += found & 1;
     }

@@ -8,17 +8,17 @@
 #include <limits>
 #include <random>
 
-#include "host/certify/synthetic/probe.h"
+#include "host/certify/synthetic/run_probe.h"
 #include "host/gpu/buffer.h"
 #include "kernels/shared/shadow.h"
-#include "tests/support/test_gpu.h"
+#include "tests/support/every_width.h"
 
 namespace kilolux {
 namespace {
 
 constexpr std::string_view kHeaders[] = {"kernels/shadows/shadow_triangle.h"};
 constexpr std::string_view kProbe = R"(
-kernel void passes(global const float* in, uint is_direction, global int* out) {
+kernel void probe(global const float* in, uint is_direction, global int* out) {
     size_t i = get_global_id(0);
     ShadowLight light = {vload3(4 * i + 1, in), 0.0f, 2.0f, is_direction != 0u};
     LaneBoxes box = {splat3(vload3(4 * i + 2, in)), splat3(vload3(4 * i + 3, in))};
@@ -31,19 +31,16 @@ struct Ray {
 };
 
 std::vector<int> passes_on_device(const std::vector<Ray>& rays, bool are_directions) {
-    Gpu gpu = test_gpu(1);
     std::vector<float> in;
     for (const Ray& ray : rays) {
         for (const glm::vec3& v : {ray.point, ray.light, ray.middle, ray.half_edge}) {
             in.insert(in.end(), {v.x, v.y, v.z});
         }
     }
-    const cl::Program program = build_probe(gpu, kHeaders, kProbe);
-    const cl::Buffer out = new_buffer(gpu, std::vector<int>(rays.size(), 7));
-    cl::KernelFunctor<cl::Buffer, uint, cl::Buffer>(program, "passes")(
-        cl::EnqueueArgs(gpu.queue, cl::NDRange(rays.size())), new_buffer(gpu, in),
-        are_directions ? 1u : 0u, out);
-    return download<int>(gpu, out, rays.size());
+    return at_every_width([&](const Gpu& gpu) {
+        return run_probe<int>(gpu, {kHeaders, kProbe}, rays.size(), rays.size(), in,
+                              are_directions ? 1u : 0u);
+    });
 }
 
 // By the box's slabs; the box is wider by `pad`.
@@ -115,21 +112,20 @@ TEST(ShadowTriangle, RaysThatTouchABoxPassIt) {
 }
 
 constexpr std::string_view kPlaneProbe = R"(
-kernel void behind(global const float* in, global float* out) {
+kernel void probe(global const float* in, global float* out) {
     size_t i = get_global_id(0);
     FV3 v[3];
     for (uint k = 0; k < 3; ++k) v[k] = splat3(vload3(5 * i + k, in));
     ShadowLight light = {vload3(5 * i + 3, in), 0.0f, 300.0f, false};
     MASK sure;
     ShadowTriangles t = set_up_shadow(v, light, 1200.0f, &sure);
-    out[i] = dot3(t.plane.g, splat3(vload3(5 * i + 4, in))) + t.plane.c;
+    out[i] = lane_max(dot3(t.plane.g, splat3(vload3(5 * i + 4, in))) + t.plane.c);
 }
 )";
 
 // Legs along two axes, far out along the third: one product makes its normal. Its own points,
 // rounded to floats, lie in its plane by less than a unit, so that it does not hide them.
 TEST(ShadowTriangle, PlanesDoNotHideTheirOwnPoints) {
-    Gpu gpu = test_gpu(1);
     std::mt19937 random(4);
     std::uniform_real_distribution<float> unit(0.0f, 1.0f);
     constexpr std::size_t kTriangles = 6000;
@@ -150,11 +146,10 @@ TEST(ShadowTriangle, PlanesDoNotHideTheirOwnPoints) {
             for (int axis = 0; axis < 3; ++axis) in.push_back(static_cast<float>(v[axis]));
         }
     }
-    const cl::Program program = build_probe(gpu, kHeaders, kPlaneProbe);
-    const cl::Buffer out = new_buffer(gpu, std::vector<float>(kTriangles));
-    cl::KernelFunctor<cl::Buffer, cl::Buffer>(program, "behind")(
-        cl::EnqueueArgs(gpu.queue, cl::NDRange(kTriangles)), new_buffer(gpu, in), out);
-    for (const float behind : download<float>(gpu, out, kTriangles)) {
+    const auto all = at_every_width([&](const Gpu& gpu) {
+        return run_probe<float>(gpu, {kHeaders, kPlaneProbe}, kTriangles, kTriangles, in);
+    });
+    for (const float behind : all) {
         ASSERT_NEAR(behind, -2.0f, 1.0f);
     }
 }

@@ -5,21 +5,21 @@
 #include <cmath>
 #include <random>
 
-#include "host/certify/synthetic/probe.h"
+#include "host/certify/synthetic/run_probe.h"
 #include "host/gpu/buffer.h"
-#include "tests/support/test_gpu.h"
+#include "tests/support/every_width.h"
 
 namespace kilolux {
 namespace {
 
 constexpr std::string_view kHeaders[] = {"kernels/shadows/shadow_triangle.h"};
 constexpr std::string_view kProbe = R"(
-kernel void crosses(global const float* in, global float* out) {
+kernel void probe(global const float* in, global float* out) {
     size_t i = get_global_id(0);
     FV3 v[3];
     for (uint k = 0; k < 3; ++k) v[k] = splat3(vload3(3 * i + k, in));
     FV3 c = twofold_cross(twofold_difference(v[1], v[0]), twofold_difference(v[2], v[0]));
-    vstore3((float3)(c.x, c.y, c.z), i, out);
+    vstore3((float3)(lane_max(c.x), lane_max(c.y), lane_max(c.z)), i, out);
 }
 )";
 
@@ -51,13 +51,10 @@ std::vector<float> thin_triangles(std::size_t count) {
 
 TEST(Twofold, CrossProductsAreAsAccurateAsTheySay) {
     constexpr std::size_t kCount = 20000;
-    Gpu gpu = test_gpu(1);
     const std::vector<float> in = thin_triangles(kCount);
-    const cl::Program program = build_probe(gpu, kHeaders, kProbe);
-    const cl::Buffer out = new_buffer(gpu, std::vector<float>(3 * kCount));
-    cl::KernelFunctor<cl::Buffer, cl::Buffer>(program, "crosses")(
-        cl::EnqueueArgs(gpu.queue, cl::NDRange(kCount)), new_buffer(gpu, in), out);
-    const auto found = download<float>(gpu, out, 3 * kCount);
+    const auto found = at_every_width([&](const Gpu& gpu) {
+        return run_probe<float>(gpu, {kHeaders, kProbe}, kCount, 3 * kCount, in);
+    });
     for (std::size_t i = 0; i < kCount; ++i) {
         const float* v = in.data() + 9 * i;
         long double a[3], b[3];

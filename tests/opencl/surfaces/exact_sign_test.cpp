@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "host/certify/synthetic/probe.h"
+#include "host/certify/synthetic/run_probe.h"
 #include "host/gpu/buffer.h"
 #include "tests/support/test_gpu.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view kHeaders[] = {"kernels/surfaces/exact_sign.h"};
 constexpr std::string_view kProbe = R"(
-kernel void sides(global const float* v, global int* out) {
+kernel void probe(global const float* v, global int* out) {
     size_t i = get_global_id(0);
     out[i] = edge_side(fixed_of(vload3(3 * i, v)), fixed_of(vload3(3 * i + 1, v)),
                        fixed_of(vload3(3 * i + 2, v)));
@@ -27,17 +27,12 @@ using Triple = std::array<Vector, 3>;  // a, b, d
 using Integer = __int128;
 
 std::vector<int> device_sides(const std::vector<Triple>& triples) {
-    Gpu gpu = test_gpu(1);
+    const Gpu gpu = test_gpu(1);  // scalars at every width
     std::vector<float> values;
     for (const Triple& t : triples) {
         for (const Vector& v : t) values.insert(values.end(), v.begin(), v.end());
     }
-    const cl::Program program = build_probe(gpu, kHeaders, kProbe);
-    const cl::Buffer in = new_buffer(gpu, values);
-    const cl::Buffer out = new_buffer(gpu, std::vector<int>(triples.size(), 7));
-    cl::KernelFunctor<cl::Buffer, cl::Buffer>(program, "sides")(
-        cl::EnqueueArgs(gpu.queue, cl::NDRange(triples.size())), in, out);
-    return download<int>(gpu, out, triples.size());
+    return run_probe<int>(gpu, {kHeaders, kProbe}, triples.size(), triples.size(), values);
 }
 
 int sign(Integer v) { return v > 0 ? 1 : v < 0 ? -1 : 0; }

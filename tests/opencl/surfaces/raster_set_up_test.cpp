@@ -5,22 +5,22 @@
 #include <cmath>
 #include <random>
 
-#include "host/certify/synthetic/probe.h"
+#include "host/certify/synthetic/run_probe.h"
 #include "host/gpu/buffer.h"
 #include "kernels/shared/view.h"
-#include "tests/support/test_gpu.h"
+#include "tests/support/every_width.h"
 
 namespace kilolux {
 namespace {
 
 constexpr std::string_view kHeaders[] = {"kernels/surfaces/raster_set_up.h"};
 constexpr std::string_view kProbe = R"(
-kernel void edges(View view, global const float* in, global float* out) {
+kernel void probe(View view, global const float* in, global float* out) {
     size_t i = get_global_id(0);
     float3 p = vload3(2 * i, in), q = vload3(2 * i + 1, in);
     FV3 a = fv3(fv(p.x), fv(p.y), fv(p.z)), b = fv3(fv(q.x), fv(q.y), fv(q.z));
     FV3 e = sure_edge(a, b, size3(a) * size3(b), ray_span(view));
-    vstore3((float3)(e.x, e.y, e.z), i, out);
+    vstore3((float3)(lane_max(e.x), lane_max(e.y), lane_max(e.z)), i, out);
 }
 )";
 
@@ -62,23 +62,19 @@ long double product(const float* a, const float* b, const float* ray) {
 
 TEST(RasterSetUp, SignsOfEdgesAreCertainBeyondOne) {
     constexpr std::size_t kEdges = 4000;
-    Gpu gpu = test_gpu(1);
     const std::vector<float> in = edges_end_on(kEdges);
-    const cl::Program program = build_probe(gpu, kHeaders, kProbe);
-    const cl::Buffer out = new_buffer(gpu, std::vector<float>(3 * kEdges));
-    cl::KernelFunctor<View, cl::Buffer, cl::Buffer>(program, "edges")(
-        cl::EnqueueArgs(gpu.queue, cl::NDRange(kEdges)), view_beside_the_axis(),
-        new_buffer(gpu, in), out);
-    const auto found = download<float>(gpu, out, 3 * kEdges);
+    const auto found = at_every_width([&](const Gpu& gpu) {
+        return run_probe<float>(gpu, {kHeaders, kProbe}, kEdges, 3 * kEdges, view_beside_the_axis(),
+                                in);
+    });
     std::mt19937 random(8);
     std::uniform_real_distribution<float> place(kNear, kFar);
     int sure = 0;
     for (std::size_t i = 0; i < 100 * kEdges; ++i) {
         const std::size_t edge = i / 100;
         const float ray[3] = {place(random), -place(random), -1.0f};
-        const float* e = found.data() + 3 * edge;
-        const double side = static_cast<double>(e[0]) * ray[0] +
-                            static_cast<double>(e[1]) * ray[1] - static_cast<double>(e[2]);
+        const auto e = [&](std::size_t axis) { return double{found[3 * edge + axis]}; };
+        const double side = e(0) * ray[0] + e(1) * ray[1] - e(2);
         if (std::abs(side) <= 1.0) continue;
         ++sure;
         const float* a = in.data() + 6 * edge;

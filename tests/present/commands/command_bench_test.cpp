@@ -74,6 +74,7 @@ TEST(Bench, QuickMeasuresLightsAndGrids) {
     EXPECT_EQ(document.at("rows").size(), rows.size());
     EXPECT_EQ(document.at("context").at("scene").at("name"), "grid");
     EXPECT_EQ(document.at("context").at("shading"), "pbr");
+    EXPECT_EQ(document.at("context").at("frames").at("measured"), rows.front().ms.count);
     EXPECT_EQ(document.at("context").at("settings").at("light-seed"), 1);
     EXPECT_FALSE(document.at("context").at("device").at("driver").get<std::string>().empty());
     EXPECT_FALSE(document.at("context").at("program").at("commit").get<std::string>().empty());

@@ -255,6 +255,17 @@ TEST_F(RenderDevices, NameThePictureThatHasNoRoom) {
     EXPECT_FALSE(contains(result.err, "left out")) << "no device has failed\n" << result.err;
 }
 
+// Each holds the lights in its part of the memory: found before anything is loaded.
+TEST_F(RenderDevices, HaveRoomForTheLightsEach) {
+    const std::vector<std::string> lights = {"--lights", "1000000", "--max-memory", "900M"};
+    EXPECT_EQ(render(one_ / "f.#.png", "0", lights).code, 0);
+    const ChildResult two = render(two_ / "f.#.png", "0,1", lights);
+    EXPECT_EQ(two.code, 1);
+    EXPECT_TRUE(contains(two.err, "memory: the program and 1000000 generated lights need"))
+        << two.err;
+    EXPECT_TRUE(contains(two.err, "; 2 devices share 900 MiB (--max-memory)")) << two.err;
+}
+
 TEST_F(RenderDevices, AreRefusedWhereTheyCannotShare) {
     const struct {
         std::string devices;

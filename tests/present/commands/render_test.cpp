@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <thread>
@@ -23,6 +24,24 @@ std::vector<std::string> small_render(const fs::path& output, std::vector<std::s
                                       "--lights", "20",   "-o",           output.string()};
     words.insert(words.end(), more.begin(), more.end());
     return words;
+}
+
+// What the display shows, whatever the curve and the exposure.
+TEST(Render, ABackgroundHasTheColourThatIsGiven) {
+    const TemporaryFolder folder;
+    const fs::path file = folder / "a.png";
+    for (const char* curve : {"none", "neutral", "aces"}) {
+        const ChildResult result = run_kilolux(small_render(
+            file,
+            {"--camera-position", "0,100,0", "--camera-focal-point", "0,200,0", "--camera-view-up",
+             "0,0,1", "--background", "#334455", "--tonemap", curve, "--exposure", "1", "-q"}));
+        ASSERT_EQ(result.code, 0) << result.err;
+        const FloatImage image = read_image(file);
+        for (std::size_t i = 0; i < image.values.size(); ++i) {
+            const int code = static_cast<int>(std::lround(image.values[i] * 255.0f));
+            ASSERT_EQ(code, 0x33 + 0x11 * static_cast<int>(i % 3)) << curve << " " << i;
+        }
+    }
 }
 
 TEST(Render, WritesAnExrThatSaysHowItWasMade) {
@@ -201,7 +220,7 @@ TEST(Render, SequencesInShardsThatGoOnWhereTheyStopped) {
     EXPECT_TRUE(contains(refusal({"--resolution", "32,16"}), "size"));
     EXPECT_TRUE(contains(refusal({"--light-seed", "9"}), "--light-seed 9"));
     EXPECT_TRUE(contains(refusal({"--time", "7"}), "--time 7"));
-    EXPECT_TRUE(contains(refusal({"--fps", "3"}), "time is '1.5 s', asked for is '1 s'"));
+    EXPECT_TRUE(contains(refusal({"--fps", "3"}), "time is '1.5 s', but '1 s' is asked for"));
     // Frame 5 alone at its time is the same picture: time comes from the frame's number.
     const fs::path alone = folder / "alone.exr";
     ASSERT_EQ(run_kilolux(small_render(alone, {"--time", "2.5", "-q"})).code, 0);
@@ -250,6 +269,20 @@ TEST(Render, FilesOfEveryFormatKnowTheirCommand) {
             << other.err;
         EXPECT_EQ(text_of_file(file), bytes);
         EXPECT_EQ(read_image(file).width, 48) << "the notes leave a file that can be read";
+        // Cut off in its notes, or in its pixels.
+        for (const std::size_t length : {std::size_t{40}, bytes.size() - 20}) {
+            write_text(file, bytes.substr(0, length));
+            const ChildResult cut = made("8");
+            EXPECT_EQ(cut.code, 0) << cut.err;
+            EXPECT_TRUE(cut.err.starts_with("kilolux: warning: " + file.string() +
+                                            ": cannot read the image: "))
+                << cut.err;
+            const std::string first_line = cut.err.substr(0, cut.err.find('\n'));
+            EXPECT_TRUE(first_line.ends_with("; it is made anew")) << cut.err;
+            EXPECT_EQ(cut.err.find("made anew"), cut.err.rfind("made anew")) << cut.err;
+            EXPECT_FALSE(contains(cut.err, "libpng")) << cut.err;
+            EXPECT_EQ(text_of_file(file), bytes) << extension << " of " << length;
+        }
     }
 }
 

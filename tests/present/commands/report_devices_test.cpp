@@ -82,6 +82,15 @@ TEST_F(ReportDevices, MayDifferWhereThatIsAllowed) {
     for (const Json& row : document.at("rows")) EXPECT_EQ(row.contains("errors by"), both) << row;
 }
 
+TEST_F(ReportDevices, HaveTheMemoryOfOne) {
+    const std::vector<std::string> memory = {"--max-memory", "500M"};
+    const ChildResult one = report("0", memory);
+    EXPECT_EQ(one.code, 0) << one.err;
+    const ChildResult two = report("0,1", memory);
+    EXPECT_EQ(two.code, 1) << two.out;
+    EXPECT_TRUE(contains(two.err, "; 2 devices share 500 MiB (--max-memory)")) << two.err;
+}
+
 TEST_F(ReportDevices, AreRefusedWhereThereAreNone) {
     const ChildResult none = report("0,7");
     EXPECT_EQ(none.code, 1) << none.err;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What JSON takes in memory, on 64 bits with glibc: blocks of 16 bytes with 8 for malloc's own. The
-// numbers are those of nlohmann::json 3 with std::map, and of tinygltf 2.
+// How much memory JSON takes, with nlohmann::json 3 (std::map) and tinygltf 2 on 64 bits. glibc's
+// malloc rounds up to 16 bytes, of which it needs 8.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace kilolux {
 
-/// What a JSON text has. What makes parsing fail comes after all that is in memory by then, so the
-/// counts of any text bound it.
+/// Counts of a JSON text. They also bound the memory of a text that is not valid: when parsing
+/// fails, memory holds only what stands before the error.
 struct JsonCounts {
     std::uint64_t objects = 0;
     std::uint64_t arrays = 0;
@@ -23,14 +23,14 @@ struct JsonCounts {
     void add_string(std::uint64_t length);
 };
 
-/// Bound of what parsing takes [byte].
+/// The most memory that parsing takes [byte].
 std::uint64_t bound_of_parsed(const JsonCounts& counts);
 
-/// [byte]
+/// The memory that a JSON value takes [byte].
 struct JsonCost {
-    std::uint64_t values = 0;  // the parsed values themselves
-    std::uint64_t text = 0;    // bound of their text
-    std::uint64_t model = 0;   // bound of what tinygltf::Model and placing its nodes take
+    std::uint64_t values = 0;  // the parsed values
+    std::uint64_t text = 0;    // at most, of them as text
+    std::uint64_t model = 0;   // at most, of tinygltf::Model and of placing its nodes
     std::uint64_t longest_string = 0;
 
     void add(const JsonCost& other);

@@ -13,8 +13,8 @@ namespace kilolux {
 namespace {
 
 constexpr int kMaxSide = 16384;  // [pixel]; what OpenGL implementations take
-// Headers that claim more than both limits are refused: kFreeBytes, and kMaxExpansion times the
-// encoded bytes, which no encoder reaches.
+// An image is refused if its header claims more than kFreeBytes and more than kMaxExpansion times
+// the encoded bytes, which no encoder reaches.
 constexpr std::uint64_t kFreeBytes = std::uint64_t{64} << 20;
 constexpr std::uint64_t kMaxExpansion = 8192;
 
@@ -51,8 +51,8 @@ FileBytes read_encoded(const GltfDocument& document, int image) {
     return read_source(document, source.uri, source.bufferView, where);
 }
 
-// OpenImageIO's name of the format by the bytes, as file names and MIME types may be wrong. A TGA
-// file has its signature at the end.
+// OpenImageIO's name of the format. The bytes tell it, since file names and MIME types may be
+// wrong; a TGA file has its signature at the end.
 std::string format_of(std::span<const unsigned char> bytes, const std::string& uri) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     for (const Magic& magic : kMagics) {
@@ -72,7 +72,7 @@ std::string reason(std::string text) {
     return text.empty() ? "is broken" : text;
 }
 
-// Throws where the image is too large for a texture, for its bytes or for the memory left.
+// Throws if the image is too large for a texture, for its encoded bytes or for the memory left.
 void check_size(const GltfDocument& document, const std::string& name, const ImageLayout& image,
                 std::size_t encoded_bytes) {
     if (image.width < 1 || image.height < 1 || image.width > kMaxSide || image.height > kMaxSide) {
@@ -90,7 +90,8 @@ void check_size(const GltfDocument& document, const std::string& name, const Ima
     document.budget->charge_memory(bytes, document.base.file + ": " + name);
 }
 
-// Makes RGBA of pixels that hold `channels` of their four channels; one or two channels are grey.
+// Completes RGBA pixels of which only the first `channels` are filled; one or two are grey, with
+// alpha.
 void fill_rgba(std::vector<std::uint8_t>& rgba, std::size_t channels) {
     for (std::size_t i = 0; channels < 4 && i < rgba.size(); i += 4) {
         std::uint8_t* pixel = &rgba[i];
@@ -99,8 +100,8 @@ void fill_rgba(std::vector<std::uint8_t>& rgba, std::size_t channels) {
     }
 }
 
-// glTF's colours are not multiplied by alpha. Some readers of OpenImageIO multiply whatever they
-// are asked for (WebP in 2.4); dividing restores the colours up to rounding.
+// Divides colours by alpha: glTF's are not multiplied by it, but some readers of OpenImageIO
+// multiply them (WebP in 2.4). The division restores them up to rounding.
 void undo_associated_alpha(std::vector<std::uint8_t>& rgba) {
     for (std::size_t i = 0; i < rgba.size(); i += 4) {
         const unsigned alpha = rgba[i + 3];
@@ -157,8 +158,8 @@ std::vector<Image> decode_images(const GltfDocument& document, const std::vector
     std::vector<std::size_t> left(images.size());
     std::iota(left.begin(), left.end(), std::size_t{0});
     while (!left.empty()) {
-        // Several may lack only the memory that others of them borrow: these wait for the next
-        // round. Where none had enough, one is alone with what there is.
+        // An image may fail only because others borrow memory while they are decoded: it is tried
+        // again in the next round. If all failed, one is tried alone.
         std::vector<char> waits(left.size(), 0);
         parallel_each(left.size(), [&](std::size_t i) {
             try {
