@@ -147,9 +147,7 @@ GltfDocument load_gltf_document(const std::filesystem::path& file, const LoadOpt
     GltfDocument document;
     document.options = options;
     document.base = {file.string(), file.parent_path(), options.allow_outside_paths};
-    const std::uint64_t memory = options.max_memory_bytes;
-    document.budget =
-        std::make_unique<LoadBudget>(memory > 0 ? memory : available_memory_bytes() / 2);
+    document.budget = std::make_unique<LoadBudget>(loading_limit(options.max_memory_bytes));
     const auto charge_file = [&document](std::uint64_t bytes) {
         document.budget->charge_memory(bytes, document.base.file);
     };
