@@ -154,11 +154,11 @@ GltfDocument load_gltf_document(const std::filesystem::path& file, const LoadOpt
     GltfText text = read_gltf_text(file, document.base.file, charge_file);
     const std::uint64_t json_bytes = text.json.size();
     JsonText surveyed = survey_json(text.file, text.json, charge_file);
-    document.data = std::move(surveyed.data);
     const std::uint64_t parsed_bytes = surveyed.parsed_bytes;
     document.budget->charge_memory(parsed_bytes, document.base.file + ": JSON");
     auto [root, broken_animations] = parse_gltf_json(surveyed, document.base.file);
     document.broken_animations = std::move(broken_animations);
+    document.data = std::move(surveyed.data);
     document.budget->release_memory(surveyed.short_text.size());
     surveyed = {};
     if (text.has_binary || !document.data.empty()) {
