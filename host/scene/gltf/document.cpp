@@ -12,6 +12,7 @@
 #include "host/scene/gltf/extensions.h"
 #include "host/scene/gltf/json/parse_model.h"
 #include "host/scene/gltf/json/used_parts.h"
+#include "host/scene/gltf/lights_cameras.h"
 #include "host/scene/gltf/mesh/meshopt.h"
 
 namespace kilolux {
@@ -171,6 +172,7 @@ GltfDocument load_gltf_document(const std::filesystem::path& file, const LoadOpt
     read_buffers(document, root, used.buffers, text, json_bytes);
     parse_model(document, std::move(root), parsed_bytes);
     check_extensions(document);
+    report_cones(document);
     apply_variant(document);
     document.clips = choose_clips(document);
     resolve_views(document, used.views);
