@@ -10,17 +10,16 @@ namespace kilolux {
 
 // Why the device or the budget cannot give `bytes` in place of the buffer; empty if they can.
 std::string GrowingBuffer::refusal(std::size_t bytes) const {
-    const std::string need = owner_ + ": needs a buffer of " + mebibytes(bytes) + "; ";
     if (bytes > gpu_.info.max_allocation_bytes) {
-        return need + gpu_.info.name + " allocates at most " +
-               mebibytes(gpu_.info.max_allocation_bytes) + " at once";
+        return owner_ + ": needs a buffer of " + mebibytes(bytes) + "; " + gpu_.info.name +
+               " allocates at most " + mebibytes(gpu_.info.max_allocation_bytes) + " at once";
     }
     if (!gpu_.budget) return {};
     const std::uint64_t released = charge_.use_count() == 1 ? charge_->bytes() : 0;
-    const std::uint64_t others = gpu_.budget->used - released;
-    if (bytes <= gpu_.budget->limit && others <= gpu_.budget->limit - bytes) return {};
-    return need + mebibytes(others) + " of the " + mebibytes(gpu_.budget->limit) +
-           " for device buffers are taken (--max-memory)";
+    const std::uint64_t others = gpu_.budget->used - released, limit = gpu_.budget->limit;
+    const std::uint64_t left = limit - std::min(limit, others);
+    if (bytes <= left) return {};
+    return owner_ + ": " + shortage_text(bytes, "device buffers", left, limit);
 }
 
 void GrowingBuffer::allocate(std::size_t bytes) {

@@ -8,7 +8,22 @@
 
 namespace kilolux {
 
+namespace {
+
+// PoCL 3.1 ends the program where it chooses groups for a device that allows fewer work-items than
+// its preferred multiple.
+constexpr std::size_t kLargestThatDriversMissize = 32;
+
+WorkSize in_groups_of_one(const WorkSize& size) {
+    const cl::NDRange ones[] = {cl::NDRange(1), cl::NDRange(1, 1), cl::NDRange(1, 1, 1)};
+    return {size.global, ones[size.global.dimensions() - 1]};
+}
+
+}  // namespace
+
 WorkSize fit_groups(const WorkSize& size, std::size_t largest, std::string_view stage) {
+    const bool driver_chooses = size.local.dimensions() == 0;
+    if (driver_chooses && largest <= kLargestThatDriversMissize) return in_groups_of_one(size);
     std::size_t group = 1;
     for (std::size_t i = 0; i < size.local.dimensions(); ++i) group *= size.local.get()[i];
     if (group <= largest) return size;

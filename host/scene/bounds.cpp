@@ -19,7 +19,7 @@ constexpr double kParallel = 1e-12;  // relative area of axes that rounding leav
 constexpr double kSpeck = 1e-5;      // of the largest instance's size: no picture shows it
 constexpr int kRounds = 8;           // until all boxes are made exact
 
-using Marks = std::vector<std::uint8_t>;  // of a mesh's vertices: 1 for those marked
+using Positions = std::vector<glm::vec3>;
 
 // Whether an instance's scale flattens it to a point or a line.
 bool is_hidden(const Instance& instance) {
@@ -51,30 +51,33 @@ bool has_area(const Mesh& mesh, std::size_t triangle) {
     return glm::cross(u / size, v / size) != glm::vec3(0.0f);
 }
 
-Marks corners_with_area(const Mesh& mesh) {
-    Marks out(mesh.positions.size(), 0);
+// Of triangles that have an area.
+Positions corners_with_area(const Mesh& mesh) {
+    std::vector<bool> is_corner(mesh.positions.size());
     for (std::size_t i = 0; i < mesh.indices.size() / 3; ++i) {
         if (!has_area(mesh, i)) continue;
-        for (std::size_t k = 0; k < 3; ++k) out[mesh.indices[3 * i + k]] = 1;
+        for (std::size_t k = 0; k < 3; ++k) is_corner[mesh.indices[3 * i + k]] = true;
+    }
+    Positions out;
+    for (std::size_t i = 0; i < is_corner.size(); ++i) {
+        if (is_corner[i]) out.push_back(mesh.positions[i]);
     }
     return out;
 }
 
-glm::dvec3 placed_vertex(const Mesh& mesh, std::size_t i, const glm::dmat4& world_from_object) {
-    return glm::dvec3(world_from_object * glm::dvec4(mesh.positions[i], 1.0));
+glm::dvec3 placed(const glm::vec3& position, const glm::dmat4& world_from_object) {
+    return glm::dvec3(world_from_object * glm::dvec4(position, 1.0));
 }
 
-// Of all vertices, or of those marked.
-Box bounds(const Mesh& mesh, const glm::dmat4& world_from_object, const Marks* marks) {
+Box bounds(const Positions& positions, const glm::dmat4& world_from_object) {
     using Range = tbb::blocked_range<std::size_t>;
     const auto add = [&](const Range& range, Box box) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            if (marks != nullptr && (*marks)[i] == 0) continue;
-            box.add(placed_vertex(mesh, i, world_from_object));
+            box.add(placed(positions[i], world_from_object));
         }
         return box;
     };
-    return tbb::parallel_reduce(Range(0, mesh.positions.size(), kVerticesAtOnce), Box{}, add,
+    return tbb::parallel_reduce(Range(0, positions.size(), kVerticesAtOnce), Box{}, add,
                                 joined_boxes);
 }
 
@@ -91,11 +94,14 @@ unsigned sides_at(const Box& box, const glm::dvec3& p) {
 // Whether triangles with an area touch all sides of the box of a mesh's vertices.
 bool is_box_of_triangles(const Mesh& mesh, const glm::dmat4& world_from_object, const Box& box) {
     constexpr unsigned kAll = 63;
-    Marks sides(mesh.positions.size());
-    for (std::size_t i = 0; i < sides.size(); ++i) {
-        sides[i] =
-            static_cast<std::uint8_t>(sides_at(box, placed_vertex(mesh, i, world_from_object)));
-    }
+    using Range = tbb::blocked_range<std::size_t>;
+    std::vector<std::uint8_t> sides(mesh.positions.size());
+    tbb::parallel_for(Range(0, sides.size(), kVerticesAtOnce), [&](const Range& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            const glm::dvec3 p = placed(mesh.positions[i], world_from_object);
+            sides[i] = static_cast<std::uint8_t>(sides_at(box, p));
+        }
+    });
     unsigned touched = 0;
     for (std::size_t i = 0; i < mesh.indices.size() && touched != kAll; ++i) {
         const unsigned more = sides[mesh.indices[i]] & ~touched;
@@ -115,7 +121,7 @@ class InstanceBoxes {
         tbb::parallel_for(std::size_t{0}, boxes_.size(), [&](std::size_t i) {
             const Instance& instance = scene_.instances[i];
             if (is_hidden(instance)) return;
-            boxes_[i] = bounds(mesh_of(i), instance.world_from_object, nullptr);
+            boxes_[i] = bounds(mesh_of(i).positions, instance.world_from_object);
         });
     }
 
@@ -152,15 +158,15 @@ class InstanceBoxes {
         const Instance& instance = scene_.instances[i];
         if (boxes_[i].empty()) return;
         if (is_box_of_triangles(mesh_of(i), instance.world_from_object, boxes_[i])) return;
-        std::optional<Marks>& corners = corners_[static_cast<std::size_t>(instance.mesh)];
+        std::optional<Positions>& corners = corners_[static_cast<std::size_t>(instance.mesh)];
         if (!corners) corners = corners_with_area(mesh_of(i));
-        boxes_[i] = bounds(mesh_of(i), instance.world_from_object, &*corners);
+        boxes_[i] = bounds(*corners, instance.world_from_object);
     }
 
     const Scene& scene_;
     std::vector<Box> boxes_;
     std::vector<std::uint8_t> exact_;
-    std::vector<std::optional<Marks>> corners_;  // with an area, by mesh
+    std::vector<std::optional<Positions>> corners_;  // with an area, by mesh
 };
 
 }  // namespace

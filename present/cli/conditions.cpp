@@ -3,15 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
 #include "host/base/error.h"
 #include "host/base/hash.h"
+#include "host/base/system/memory.h"
 #include "host/base/version.h"
-#include "host/scene/generated/scenes.h"
 #include "host/scene/gltf/json/json_text.h"
-#include "host/scene/lights/built_in_environments.h"
+#include "host/scene/gltf/load_budget.h"
 #include "present/cli/commit.h"
 #include "present/cli/scene_choice.h"
 
@@ -24,6 +25,11 @@ using Json = nlohmann::ordered_json;
 bool is_file(const fs::path& file) {
     std::error_code error;
     return fs::is_regular_file(file, error);
+}
+
+bool names_file(const Setting& setting) {
+    return setting.kind == SettingKind::input_file &&
+           std::ranges::count(setting.words, setting.show()) == 0 && is_file(setting.show());
 }
 
 // Name, size and hash of a file, read piece by piece.
@@ -77,13 +83,17 @@ class UriReader : public nlohmann::json_sax<nlohmann::json> {
 };
 
 // Lines of all files that a .gltf or .glb file names; none if it is no such file.
-std::string named_files(const fs::path& file) {
+std::string named_files(const fs::path& file, std::uint64_t max_memory_bytes) {
     UriReader named;
+    LoadBudget budget(loading_limit(max_memory_bytes));
+    const auto charge = [&](std::uint64_t bytes) { budget.charge_memory(bytes, file.string()); };
     try {
-        Bytes bytes = read_gltf_json(file);
+        Bytes bytes = read_gltf_json(file, charge);
         const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-        const JsonText json = survey_json(bytes, text, [](std::uint64_t) {});
+        const JsonText json = survey_json(bytes, text, charge);
         if (json.depth <= kDeepestJson) nlohmann::json::sax_parse(json.text, &named);
+    } catch (const MemoryError&) {
+        throw;
     } catch (const Error&) {
         return "";
     }
@@ -108,23 +118,26 @@ Json camera_json(const Camera& camera) {
 
 }  // namespace
 
-std::string input_content(const SharedOptions& shared, const std::vector<fs::path>& more) {
+std::string input_content(const SharedOptions& shared, const std::vector<Setting>& settings,
+                          const std::vector<fs::path>& more) {
     std::string text;
-    if (!is_generated_scene(shared.scene) && is_file(shared.scene)) {
-        check_scene(shared.scene);  // not to read what is no scene
-        const fs::path file = fs::canonical(shared.scene);
-        text = file_line(file) + named_files(file);
+    for (const Setting& setting : settings) {
+        if (setting.text.effect.changes != Changes::picture || !names_file(setting)) continue;
+        const std::string name = setting.show();
+        if (name == shared.scene) check_scene(name);  // not to read what is no scene
+        const fs::path file = fs::canonical(name);
+        text += file_line(file);
+        if (name == shared.scene) text += named_files(file, shared.settings.max_memory_bytes);
     }
-    std::vector<fs::path> others = more;
-    if (!is_built_in_environment(shared.environment)) others.push_back(shared.environment);
-    for (const fs::path& file : others) {
+    for (const fs::path& file : more) {
         if (is_file(file)) text += file_line(file);
     }
     return text.empty() ? "" : hash_text(text);
 }
 
 std::string scene_content(const SharedOptions& shared) {
-    const std::string files = input_content(shared);
+    SharedOptions noted = shared;
+    const std::string files = input_content(shared, settings_of(noted));
     return files.empty() ? shared.scene : files;
 }
 
@@ -142,9 +155,9 @@ Json settings_json(SharedOptions shared) {
     for (const Setting& setting : settings_of(shared)) {
         if (setting.text.effect.changes != Changes::neither) {
             // A file counts by its content: see scene_content().
-            const bool names_file = setting.kind == SettingKind::text && is_file(setting.show());
-            out[setting.word()] = names_file ? Json(fs::path(setting.show()).filename().string())
-                                             : value_json(setting);
+            out[setting.word()] = names_file(setting)
+                                      ? Json(fs::path(setting.show()).filename().string())
+                                      : value_json(setting);
         }
     }
     return out;

@@ -12,10 +12,11 @@
 
 namespace kilolux {
 
-/// A text that changes with the content of the options' files: the scene's file, every file that it
-/// names (buffers, images, IES profiles), the environment, and `more`. Empty where there is none.
-/// The folder does not matter.
-std::string input_content(const SharedOptions& shared,
+/// A text that changes with the content of files that change the picture: those that `settings`
+/// name, which are the `shared` ones at least, every file that the scene's names (buffers, images,
+/// IES profiles), and `more`. Empty where there is none. The folder does not matter. Throws Error
+/// where reading the scene's file needs more than the bound of memory.
+std::string input_content(const SharedOptions& shared, const std::vector<Setting>& settings,
                           const std::vector<std::filesystem::path>& more = {});
 
 /// input_content(); of a generated scene without files its name.

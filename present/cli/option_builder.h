@@ -77,6 +77,18 @@ class OptionBuilder {
     OptionBuilder& text(const OptionText& text, Text& out) {
         return value(text, out, [](const std::string&, const std::string& seen) { return seen; });
     }
+    /// A file that is read, or one of `names` in its place.
+    template <typename Text>
+    OptionBuilder& input_file(const OptionText& text, Text& out,
+                              const std::vector<std::string>& names = {}) {
+        hand_over({.text = text,
+                   .heading = {},
+                   .kind = SettingKind::input_file,
+                   .words = names,
+                   .take = [&out](const std::string& seen) { out = seen; },
+                   .show = [&out] { return text_of(out); }});
+        return *this;
+    }
     OptionBuilder& flag(const std::string& name, bool& out, const std::string& meaning,
                         Effect effect = kNeither);
     template <typename T>

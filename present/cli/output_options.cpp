@@ -112,11 +112,12 @@ void visit_sequence(const SettingVisitor& f, OutputOptions& o) {
                  "the frames; 360 ends one step before its start",
                  kPicture},
                 o.turntable)
-        .text({"--camera-keys", "FILE", "",
-               "JSON list of {\"time\", \"position\", \"focal_point\", \"angle\"}, in seconds, "
-               "metres and degrees: a smooth way through them",
-               kPicture},
-              o.camera_keys)
+        .input_file(
+            {"--camera-keys", "FILE", "",
+             "JSON list of {\"time\", \"position\", \"focal_point\", \"angle\"}, in seconds, "
+             "metres and degrees: a smooth way through them",
+             kPicture},
+            o.camera_keys)
         .flag("--skip-existing", o.skip_existing,
               "Skip a picture or video whose file is there already: its size and its notes of "
               "command "
@@ -126,7 +127,7 @@ void visit_sequence(const SettingVisitor& f, OutputOptions& o) {
 
 void visit_comparison(const SettingVisitor& f, OutputOptions& o) {
     OptionBuilder(f, "Comparison")
-        .text({"--reference", "FILE", "", "Compare the picture with this one"}, o.reference)
+        .input_file({"--reference", "FILE", "", "Compare the picture with this one"}, o.reference)
         .number({"--threshold", "T", "0", "Exit with 3 if the metric is above"}, o.threshold, {0.0})
         .choice({"--metric", "", "", "What is compared with the threshold"}, o.metric,
                 metric_choices())

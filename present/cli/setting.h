@@ -36,14 +36,15 @@ struct OptionText {
     Effect effect = kNeither;
 };
 
-/// How a value is written: `numbers` are separated by commas, as are the words of a `list`.
-enum class SettingKind { text, flag, number, count, numbers, choice, list };
+/// How a value is written: `numbers` are separated by commas, as are the words of a `list`. What an
+/// `input_file` holds is part of what its option says.
+enum class SettingKind { text, flag, number, count, numbers, choice, list, input_file };
 
 struct Setting {
     OptionText text;
     std::string heading;  // of --help
     SettingKind kind = SettingKind::text;
-    std::vector<std::string> words{};  // that a choice or a list takes
+    std::vector<std::string> words{};  // that a choice or a list takes, or in place of a file
 
     /// Throws UsageError for a text that is no value.
     std::function<void(const std::string& text)> take{};

@@ -6,6 +6,7 @@
 
 #include "host/base/text.h"
 #include "host/scene/generated/scenes.h"
+#include "host/scene/lights/built_in_environments.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/options.h"
 
@@ -42,11 +43,11 @@ void count_members(SharedOptions& options) {
 
 void visit_scene(const SettingVisitor& f, SharedOptions& o) {
     OptionBuilder(f, "Scene")
-        .text({"SCENE", "", "",
-               "A generated scene (" + joined(generated_scene_names()) +
-                   ") or a glTF 2.0 file, .gltf or .glb",
-               kPicture},
-              o.scene)
+        .input_file({"SCENE", "", "",
+                     "A generated scene (" + joined(generated_scene_names()) +
+                         ") or a glTF 2.0 file, .gltf or .glb",
+                     kPicture},
+                    o.scene, generated_scene_names())
         .value({"--clip", "NAME-OR-INDEX[,...]", "the file's first",
                 "Animations of the file that play, as info lists them; also all or none", kPicture},
                o.load.clips, parse_list)
@@ -91,13 +92,13 @@ void visit_lights(const SettingVisitor& f, SharedOptions& o) {
         .number_or_auto(
             {"--light-intensity", "I|auto", "", "Brightest channel in candela", kPanelPicture},
             l.intensity, kAboveZeroRange)
-        .text(
+        .input_file(
             {"--environment", "FILE|studio|sky", "",
              "Light from all around: an image, longitude by latitude, its middle towards -Z, e.g. "
              ".hdr or .exr; studio: soft boxes in a dim room; sky: a clear sky with a sun. Then "
              "--rig auto is none and --ambient 0",
              kPicture},
-            o.environment);
+            o.environment, built_in_environment_names());
 }
 
 void visit_more_lights(const SettingVisitor& f, SharedOptions& o) {

@@ -63,9 +63,10 @@ std::string picture_command(const RenderOptions& options) {
 }
 
 std::string inputs_comment(const RenderOptions& options) {
-    std::vector<std::filesystem::path> more = {options.output.camera_keys};
+    RenderOptions noted = options;
+    std::vector<std::filesystem::path> more;
     if (uses_ocio(options.output.ocio)) more.emplace_back(ocio_config());
-    const std::string content = input_content(options.shared, more);
+    const std::string content = input_content(options.shared, settings_of(noted), more);
     return content.empty() ? "" : " # input files " + content;
 }
 

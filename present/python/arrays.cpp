@@ -115,14 +115,8 @@ std::vector<SceneLight> lights_of(const std::string& kind,
         if (!std::isfinite(light.direction.x)) {
             throw Error(fmt::format("lights: direction of light {} is zero or not finite", i));
         }
-        constexpr float kWidest = 1.5708f;  // [rad], a quarter turn, rounded up
-        if (kind_of(type).has_cone && light.outer_cone > kWidest) {
-            throw Error(fmt::format("lights: outer cone {} of light {} is above pi / 2",
-                                    light.outer_cone, i));
-        }
-        if (kind_of(type).has_cone && !(light.inner_cone < light.outer_cone)) {
-            throw Error(fmt::format("lights: inner cone {} of light {} is not below the outer {}",
-                                    light.inner_cone, i, light.outer_cone));
+        if (const std::string problem = cone_problem(light); !problem.empty()) {
+            throw Error(fmt::format("lights: light {}: {}", i, problem));
         }
     }
     return out;

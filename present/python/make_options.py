@@ -12,7 +12,7 @@ sys.path.insert(0, str(folder))
 import _native  # noqa: E402
 
 TYPES = {"flag": "bool", "number": "float", "count": "int | str", "numbers": "str | Sequence[float]",
-         "text": "str | PathLike[str]"}
+         "text": "str | PathLike[str]", "file": "str | PathLike[str]"}
 
 
 def type_of(setting):

@@ -76,7 +76,7 @@ py::dict reference_dict(ReferencePicture picture) {
 // The options, and their values after `words`.
 py::list settings(const Words& words) {
     constexpr const char* kKinds[] = {"text",    "flag",   "number", "count",
-                                      "numbers", "choice", "list"};
+                                      "numbers", "choice", "list",   "file"};
     RendererOptions options = parse_renderer_options(SharedOptions().scene, words);
     py::list out;
     for (const Setting& setting : settings_of(options)) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <sys/mount.h>
 
+#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -213,12 +214,14 @@ TEST_F(Faults, AFolderOfKernelsWithoutSpaceOrExecution) {
 
 // Groups of 256 are built in for GPUs; a device may allow fewer.
 TEST_F(Faults, ADeviceOfSmallWorkGroups) {
-    const fs::path expected = elsewhere_ / "large.exr", small_file = elsewhere_ / "small.exr";
-    const Words more = {"--geometry", "compute", "--shadows", "exact", "--bloom", "0.1"};
+    const fs::path expected = elsewhere_ / "large.png", small_file = elsewhere_ / "small.png";
+    const Words more = {"--geometry", "compute", "--shadows", "exact",
+                        "--bloom",    "0.1",     "--bits",    "16"};
     const std::string device = "KILOLUX_DEVICE_KIND=gpu";
     const ChildResult large = run_child(render_words(with_environment({device}), expected, more));
     EXPECT_EQ(large.code, 0) << large.err;
-    for (const char* most : {"POCL_MAX_WORK_GROUP_SIZE=64", "POCL_MAX_WORK_GROUP_SIZE=8"}) {
+    for (const char* most : {"POCL_MAX_WORK_GROUP_SIZE=64", "POCL_MAX_WORK_GROUP_SIZE=8",
+                             "POCL_MAX_WORK_GROUP_SIZE=4"}) {
         const ChildResult small =
             run_child(render_words(with_environment({device, most}), small_file, more));
         EXPECT_EQ(small.code, 0) << most << small.err;
@@ -245,6 +248,32 @@ TEST_F(Faults, OpenGlThatCannotBeUsedIsNotNeeded) {
             << variable << made.err;
         EXPECT_FALSE(has(made.err, "libEGL warning")) << made.err;
         EXPECT_EQ(read_image(file).values, read_image(expected).values) << variable;
+    }
+}
+
+// Only OpenGL draws surfaces that blend.
+TEST_F(Faults, OpenGlThatCannotBeUsedIsMissedByWhatBlends) {
+    const std::string scene = (elsewhere_ / "glass.gltf").string();
+    write_text(scene, R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],
+"materials":[{"alphaMode":"BLEND"}],"bufferViews":[{"buffer":0,"byteLength":36}],
+"accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3}],
+"buffers":[{"byteLength":36,"uri":
+"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
+    for (const char* variable :
+         {"LIBGL_DRIVERS_PATH=/nowhere", "__EGL_VENDOR_LIBRARY_DIRS=/nowhere"}) {
+        for (const char* geometry : {"auto", "ids", "compute"}) {
+            Words words = with_environment({variable});
+            const Words render = {program_file(), "render",       scene,   "-q", "--geometry",
+                                  geometry,       "--resolution", "48,32", "-o", picture_.string()};
+            words.insert(words.end(), render.begin(), render.end());
+            const ChildResult result = run_child(words);
+            expect_failure(result,
+                           "kilolux: surfaces that blend (alphaMode BLEND) are drawn by OpenGL: "
+                           "EGL: no headless OpenGL 4.5 context");
+            EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+            expect_untouched();
+        }
     }
 }
 

@@ -19,6 +19,18 @@ TEST(FitGroups, FreeOnesGetSmallerAndKeepTheirItems) {
     }
 }
 
+// PoCL ends the program where it chooses groups for such a device.
+TEST(FitGroups, NoneAreLeftToTheDriverOfADeviceOfSmallOnes) {
+    const WorkSize size{cl::NDRange(32, 5, 3), cl::NullRange};
+    for (const std::size_t largest : {1, 4, 8}) {
+        const WorkSize fitting = fit_groups(size, largest, "stage");
+        ASSERT_EQ(fitting.local.dimensions(), 3u);
+        for (int i = 0; i < 3; ++i) EXPECT_EQ(fitting.local.get()[i], 1u);
+        EXPECT_EQ(fitting.global.get()[2], 3u);
+    }
+    EXPECT_EQ(fit_groups(size, 256, "stage").local.dimensions(), 0u);
+}
+
 TEST(FitGroups, FixedOnesAreRefusedWithBothSizes) {
     EXPECT_EQ(fit_groups(groups(3, 64), 64, "stage").local.get()[0], 64u);
     try {

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <set>
 
+#include "host/base/error.h"
+#include "present/commands/picture_files.h"
 #include "tests/support/temporary_folder.h"
 
 namespace kilolux {
@@ -55,6 +57,55 @@ TEST(SceneContent, IsThatOfACopyElsewhere) {
         write_text(folder.path() / place / "a.bin", "12345");
     }
     EXPECT_EQ(content_of(folder / "s.gltf"), content_of(folder.path() / "copy" / "s.gltf"));
+}
+
+TEST(InputContent, ChangesWithEachFileThatAnOptionOfThePictureNames) {
+    const TemporaryFolder folder;
+    const std::string file = (folder / "input").string();
+    std::set<std::string> seen;
+    RenderOptions all;
+    for (const Setting& row : settings_of(all)) {
+        const bool changes_picture = row.text.effect.changes == Changes::picture;
+        if (row.kind != SettingKind::input_file) {
+            EXPECT_FALSE(changes_picture && row.text.form.starts_with("FILE")) << row.option();
+            continue;
+        }
+        RenderOptions options;
+        const std::vector<Setting> settings = settings_of(options);
+        for (const Setting& setting : settings) {
+            if (setting.option() == row.option()) setting.take(file);
+        }
+        const auto content_with = [&](const char* text) {
+            write_text(file, text);
+            return input_content(options.shared, settings);
+        };
+        EXPECT_EQ(content_with("1") != content_with("2"), changes_picture) << row.option();
+        seen.insert(row.option());
+    }
+    EXPECT_EQ(seen,
+              (std::set<std::string>{"SCENE", "--environment", "--camera-keys", "--reference"}));
+}
+
+// The loader's bound holds, with its message.
+TEST(InputContent, ReadsNoMoreThanTheBoundOfMemory) {
+    const TemporaryFolder folder;
+    SharedOptions options;
+    options.scene = (folder / "s.gltf").string();
+    options.settings.max_memory_bytes = 1 << 20;
+    const auto message_of_size = [&](std::size_t bytes) -> std::string {
+        write_text(options.scene, R"({"asset":{"version":"2.0"}})" + std::string(bytes, ' '));
+        try {
+            scene_content(options);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_EQ(message_of_size(1 << 19), "");
+    EXPECT_EQ(message_of_size(3 << 20),
+              options.scene +
+                  ": needs 4 MiB of memory for buffers, images and meshes, 1 MiB of 1 "
+                  "MiB are left (--max-memory)");
 }
 
 TEST(SceneContent, OfFilesWithoutEndAndDocumentsWithoutBottom) {

@@ -52,6 +52,14 @@ TEST(PrefilteredCache, IsWhatWasMadeOrIsMadeAnew) {
         EXPECT_TRUE(same(kept_prefiltered(small), made)) << at;
         EXPECT_EQ(text_of_file(file), text) << "written anew";
     }
+    // The first line says what is kept: with the rest of another file, that is what is read.
+    kept_prefiltered(other);
+    const auto both = files_in(folder / "kilolux");
+    ASSERT_EQ(both.size(), 2u);
+    const std::string theirs = text_of_file(both[both[0] == file ? 1 : 0]);
+    const auto first_line = [](const std::string& all) { return all.substr(0, all.find('\n')); };
+    write_text(file, first_line(text) + theirs.substr(first_line(theirs).size()));
+    EXPECT_TRUE(same(kept_prefiltered(small), prefiltered(other))) << "read, not made";
     write_text(file, text.substr(0, text.size() / 2));
     EXPECT_TRUE(same(kept_prefiltered(small), made));
     EXPECT_FALSE(same(kept_prefiltered(other), made)) << "of other light";

@@ -101,6 +101,23 @@ TEST(MemoryPlan, RenderersShareTheMemory) {
     EXPECT_TRUE(refused.ends_with(" MiB; 8 devices share 1024 MiB (--max-memory)")) << refused;
 }
 
+TEST(MemoryPlan, TheMessageCountsTheScenesOwnLightsToo) {
+    Scene scene = make_generated_scene("plain");
+    scene.lights.assign(5, SceneLight{});
+    RenderSettings settings = small_settings(64, 64, 2);
+    settings.max_memory_bytes = std::uint64_t{1} << 20;
+    const auto refused = [&] {
+        return message_of<Error>(
+            [&] { plan_memory(scene, settings, make_scene_plan(scene, settings, 7), cpu()); });
+    };
+    EXPECT_TRUE(refused().starts_with("memory: 64x64 pixels with 7 lights need at least "))
+        << refused();
+    settings.lights.count = 0;
+    scene.lights.resize(1);
+    EXPECT_TRUE(refused().starts_with("memory: 64x64 pixels with 1 light need at least "))
+        << refused();
+}
+
 // The message blames lights only where the program fits without them.
 TEST(MemoryPlan, TheProgramAloneMayBeTooLarge) {
     RenderSettings settings = small_settings(64, 64, 5000);

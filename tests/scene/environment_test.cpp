@@ -241,8 +241,8 @@ TEST(Environment, NeedsNoMoreMemoryThanThereMayBe) {
     const auto file = folder.path() / "a.hdr";
     write_file(file, std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 32000 +X 64000\n"));
     EXPECT_TRUE(contains(message_of<Error>([&] { read_environment(file, 1 << 30); }),
-                         "a.hdr: needs 39063 MiB of memory as an environment, of 1024 MiB "
-                         "(--max-memory)"))
+                         "a.hdr: needs 39063 MiB of memory as an environment, 1024 MiB of 1024 MiB "
+                         "are left (--max-memory)"))
         << message_of<Error>([&] { read_environment(file, 1 << 30); });
 }
 

@@ -8,6 +8,7 @@
 
 #include "host/scene/generated/scenes.h"
 #include "host/scene/lights/light_generator.h"
+#include "host/scene/lights/light_kinds.h"
 #include "tests/scene/export_scenes.h"
 #include "tests/support/gltf_seeds.h"
 #include "tests/support/paths.h"
@@ -69,6 +70,17 @@ TEST(ExportScene, KeepsWhatTheLoaderMadeOfAFile) {
     EXPECT_EQ(triangle_count(scene), 3u * 2u + 8u * (6u + 3u + 6u + 5u));
     EXPECT_EQ(scene.meshes.at(0).material, 1);
     EXPECT_EQ(scene_difference(scene, round_trip(scene, "x.glb")), "");
+}
+
+TEST(ExportScene, WritesOnlyConesThatTheExtensionAllows) {
+    for (const auto& [inner, outer] : {std::pair{5.0f, 4.0f}, {0.5f, 0.5f}, {-1.0f, 0.5f}}) {
+        Scene scene = make_generated_scene("grid");
+        SceneLight spot{.type = LightType::spot, .intensity = glm::vec3(1)};
+        spot.inner_cone = inner;
+        spot.outer_cone = outer;
+        scene.lights = {spot};
+        EXPECT_EQ(cone_problem(round_trip(scene, "x.glb").lights.at(0)), "");
+    }
 }
 
 // glTF's factors end at 1: such a colour is written as emission, which looks the same.

@@ -71,6 +71,10 @@ std::uint64_t available_memory_bytes() {
     return std::min({system_available(), group_available(), address_space_available()});
 }
 
+std::uint64_t loading_limit(std::uint64_t asked) {
+    return asked > 0 ? asked : available_memory_bytes() / 2;
+}
+
 std::uint64_t resident_memory_bytes() { return process_bytes(true); }
 
 void require_address_space(std::uint64_t bytes, const std::string& what) {
@@ -83,9 +87,14 @@ void require_address_space(std::uint64_t bytes, const std::string& what) {
     const std::uint64_t need = bytes + kThreadBytes * std::thread::hardware_concurrency();
     const std::uint64_t left = address_space_available();
     if (left >= need) return;
-    throw Error("memory: " + what + " needs " + mebibytes(need) + " of address space, " +
-                std::to_string(left >> 20) + " MiB of " + mebibytes(limit) +
-                " are left (ulimit -v)");
+    throw Error("memory: " + what + " " +
+                shortage_text(need, "address space", left, limit, "ulimit -v"));
+}
+
+std::string shortage_text(std::uint64_t need, const std::string& kind, std::uint64_t left,
+                          std::uint64_t limit, const std::string& option) {
+    return "needs " + mebibytes(need) + " of " + kind + ", " + std::to_string(left >> 20) +
+           " MiB of " + mebibytes(limit) + " are left (" + option + ")";
 }
 
 std::string mebibytes(std::uint64_t bytes) {

@@ -11,6 +11,9 @@ namespace kilolux {
 /// unknown.
 std::uint64_t available_memory_bytes();
 
+/// What loading may take: `asked`, or half of what is available where that is 0 [byte].
+std::uint64_t loading_limit(std::uint64_t asked);
+
 /// Resident memory of this process [byte].
 std::uint64_t resident_memory_bytes();
 
@@ -22,5 +25,10 @@ void require_address_space(std::uint64_t bytes, const std::string& what);
 
 /// "1536 MiB", rounded up.
 std::string mebibytes(std::uint64_t bytes);
+
+/// "needs 5 MiB of memory for images, 3 MiB of 9 MiB are left (--max-memory)": of a `kind` of
+/// memory whose `limit` an option sets.
+std::string shortage_text(std::uint64_t need, const std::string& kind, std::uint64_t left,
+                          std::uint64_t limit, const std::string& option = "--max-memory");
 
 }  // namespace kilolux

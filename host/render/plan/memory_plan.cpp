@@ -181,13 +181,13 @@ bool needs_whole_tiles(const Scene& scene, const RenderSettings& settings) {
     return is_forward(settings.renderer) || has_blended_surfaces(scene);
 }
 
-std::string lights_text(Bytes count) {
-    return fmt::format("{} generated light{}", count, count == 1 ? "" : "s");
+std::string lights_text(Bytes count, const char* kind) {
+    return fmt::format("{} {}light{}", count, kind, count == 1 ? "" : "s");
 }
 
-std::string picture_text(const RenderSettings& settings) {
+std::string picture_text(const Scene& scene, const RenderSettings& settings) {
     return fmt::format("{}x{} pixels with {}", settings.width, settings.height,
-                       lights_text(settings.lights.count));
+                       lights_text(settings.lights.count + scene.lights.size(), ""));
 }
 
 int multiple_of_tile(Bytes rows) { return static_cast<int>(rows / FINE_TILE * FINE_TILE); }
@@ -257,7 +257,7 @@ MemoryPlan plan_memory(const Scene& scene, const RenderSettings& settings, const
     const int rows = multiple_of_tile(
         std::min<Bytes>({fitting, most_rows(need, device, width), static_cast<Bytes>(most)}));
     if (rows < lowest) {
-        throw Error("memory: " + picture_text(settings) + " need at least " +
+        throw Error("memory: " + picture_text(scene, settings) + " need at least " +
                     mebibytes(fixed + static_cast<Bytes>(lowest) * row) + "; " +
                     limit_text(settings));
     }
@@ -280,9 +280,9 @@ void check_light_memory(std::uint64_t lights, const RenderSettings& settings) {
     const Bytes need = kProgram + lights * kLight;
     if (need <= limit) return;
     const std::string what =
-        kProgram > limit
-            ? "the program with its drivers needs at least " + mebibytes(kProgram)
-            : "the program and " + lights_text(lights) + " need at least " + mebibytes(need);
+        kProgram > limit ? "the program with its drivers needs at least " + mebibytes(kProgram)
+                         : "the program and " + lights_text(lights, "generated ") +
+                               " need at least " + mebibytes(need);
     throw Error("memory: " + what + "; " + limit_text(settings));
 }
 

@@ -176,6 +176,21 @@ struct Checker {
     }
 };
 
+// The parser's message, with the column in the file.
+std::string parse_message(const json::exception& error, const JsonText& text) {
+    constexpr std::string_view kColumn = ", column ";
+    std::string what = error.what();
+    what.erase(0, what.find(']') + 2);
+    const auto* broken = dynamic_cast<const json::parse_error*>(&error);
+    const std::size_t place = what.find(kColumn);
+    if (broken == nullptr || place == std::string::npos) return what;
+    const std::size_t begin = place + kColumn.size();
+    const std::size_t end = what.find_first_not_of("0123456789", begin);
+    const std::size_t column = std::stoull(what.substr(begin, end - begin));
+    return what.replace(begin, end - begin,
+                        std::to_string(column + saved_before(text, broken->byte)));
+}
+
 json parse(const JsonText& json_text, const std::string& name) {
     if (json_text.depth > kDeepestJson) {
         throw Error(fmt::format("{}: JSON is nested deeper than {} levels", name, kDeepestJson));
@@ -183,8 +198,7 @@ json parse(const JsonText& json_text, const std::string& name) {
     try {
         return json::parse(json_text.text);
     } catch (const json::exception& error) {
-        const std::string what = error.what();
-        throw Error(name + ": is not JSON: " + what.substr(what.find(']') + 2));
+        throw Error(name + ": is not JSON: " + parse_message(error, json_text));
     }
 }
 

@@ -12,6 +12,7 @@
 #include "host/scene/gltf/extensions.h"
 #include "host/scene/gltf/json/parse_model.h"
 #include "host/scene/gltf/json/used_parts.h"
+#include "host/scene/gltf/lights_cameras.h"
 #include "host/scene/gltf/mesh/meshopt.h"
 
 namespace kilolux {
@@ -147,20 +148,18 @@ GltfDocument load_gltf_document(const std::filesystem::path& file, const LoadOpt
     GltfDocument document;
     document.options = options;
     document.base = {file.string(), file.parent_path(), options.allow_outside_paths};
-    const std::uint64_t memory = options.max_memory_bytes;
-    document.budget =
-        std::make_unique<LoadBudget>(memory > 0 ? memory : available_memory_bytes() / 2);
+    document.budget = std::make_unique<LoadBudget>(loading_limit(options.max_memory_bytes));
     const auto charge_file = [&document](std::uint64_t bytes) {
         document.budget->charge_memory(bytes, document.base.file);
     };
     GltfText text = read_gltf_text(file, document.base.file, charge_file);
     const std::uint64_t json_bytes = text.json.size();
     JsonText surveyed = survey_json(text.file, text.json, charge_file);
-    document.data = std::move(surveyed.data);
     const std::uint64_t parsed_bytes = surveyed.parsed_bytes;
     document.budget->charge_memory(parsed_bytes, document.base.file + ": JSON");
     auto [root, broken_animations] = parse_gltf_json(surveyed, document.base.file);
     document.broken_animations = std::move(broken_animations);
+    document.data = std::move(surveyed.data);
     document.budget->release_memory(surveyed.short_text.size());
     surveyed = {};
     if (text.has_binary || !document.data.empty()) {
@@ -173,6 +172,7 @@ GltfDocument load_gltf_document(const std::filesystem::path& file, const LoadOpt
     read_buffers(document, root, used.buffers, text, json_bytes);
     parse_model(document, std::move(root), parsed_bytes);
     check_extensions(document);
+    report_cones(document);
     apply_variant(document);
     document.clips = choose_clips(document);
     resolve_views(document, used.views);

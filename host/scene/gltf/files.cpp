@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cstring>
 #include <fstream>
+#include <optional>
 
 #include "host/base/error.h"
 #include "host/base/log.h"
@@ -25,6 +26,7 @@ constexpr std::uint32_t kJsonChunk = 0x4E4F534A;  // "JSON"
 constexpr std::uint32_t kBinChunk = 0x004E4942;   // "BIN\0"
 constexpr std::size_t kHeaderBytes = 12;
 constexpr std::size_t kChunkHeaderBytes = 8;
+constexpr std::size_t kFirstBytes = kHeaderBytes + kChunkHeaderBytes;  // up to the JSON
 
 std::uint32_t read_u32(ByteSpan bytes, std::size_t offset) {
     std::uint32_t value = 0;
@@ -78,25 +80,35 @@ std::string_view as_text(ByteSpan bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-// Sets the parts of a GLB from its bytes.
-void split_glb(GltfText& out, const std::string& name) {
-    ByteSpan bytes = out.file;
-    if (bytes.size() < kHeaderBytes + kChunkHeaderBytes) {
-        throw Error(
-            fmt::format("{}: GLB of {} bytes is shorter than its headers", name, bytes.size()));
+struct GlbHeader {
+    std::uint32_t length = 0;       // of the GLB
+    std::uint32_t json_length = 0;  // as claimed
+};
+
+// From the first bytes of a file of `size`; none if it is no GLB.
+std::optional<GlbHeader> read_glb_header(ByteSpan bytes, std::uint64_t size,
+                                         const std::string& name) {
+    if (bytes.size() < sizeof(kMagic) || read_u32(bytes, 0) != kMagic) return std::nullopt;
+    if (bytes.size() < kFirstBytes) {
+        throw Error(fmt::format("{}: GLB of {} bytes is shorter than its headers", name, size));
     }
     if (const std::uint32_t version = read_u32(bytes, 4); version != 2) {
         throw Error(fmt::format("{}: GLB version is {}, must be 2", name, version));
     }
-    const std::size_t length = read_u32(bytes, 8);
-    if (length > bytes.size() || length < kHeaderBytes + kChunkHeaderBytes) {
-        throw Error(fmt::format("{}: GLB header claims {} bytes, the file holds {}", name, length,
-                                bytes.size()));
+    const GlbHeader out{read_u32(bytes, 8), read_u32(bytes, kHeaderBytes)};
+    if (out.length > size || out.length < kFirstBytes) {
+        throw Error(fmt::format("{}: GLB header claims {} bytes, the file holds {}", name,
+                                out.length, size));
     }
-    bytes = bytes.first(length);
     if (read_u32(bytes, kHeaderBytes + 4) != kJsonChunk) {
         throw Error(name + ": the first chunk of the GLB is not JSON");
     }
+    return out;
+}
+
+// Sets the parts of a GLB from its bytes, whose header has been read.
+void split_glb(GltfText& out, std::size_t length, const std::string& name) {
+    const ByteSpan bytes = ByteSpan(out.file).first(length);
     const auto text = chunk_at(bytes, kHeaderBytes, name);
     out.json = as_text(text);
     std::size_t offset = next_chunk(bytes, kHeaderBytes, text, name);
@@ -242,27 +254,26 @@ GltfText read_gltf_text(const fs::path& file, const std::string& name, const Bef
     GltfText out;
     out.file = read_file_bytes(file, name, before);
     out.json = as_text(out.file);
-    if (out.file.size() >= 4 && read_u32(out.file, 0) == kMagic) split_glb(out, name);
+    const auto glb = read_glb_header(out.file, out.file.size(), name);
+    if (glb) split_glb(out, glb->length, name);
     return out;
 }
 
-Bytes read_gltf_json(const fs::path& file) {
-    constexpr std::uint64_t kHeaders = kHeaderBytes + kChunkHeaderBytes;
+Bytes read_gltf_json(const fs::path& file, const BeforeBytes& before) {
     const std::string name = file.string();
     std::uint64_t size = size_of_file(file, name);
     std::ifstream in(file, std::ios::binary);
-    if (size >= kHeaders) {
-        const Bytes headers = read_next(in, kHeaders, name);
-        if (read_u32(headers, 0) == kMagic) {
-            size = std::min<std::uint64_t>(size - kHeaders, read_u32(headers, kHeaderBytes));
-        } else {
-            in.seekg(0);
-        }
+    const Bytes first = read_next(in, std::min<std::uint64_t>(size, kFirstBytes), name);
+    if (const auto glb = read_glb_header(first, size, name)) {
+        size = std::min<std::uint64_t>(size - kFirstBytes, glb->json_length);
+    } else {
+        in.seekg(0);
     }
+    before(size);
     return read_next(in, size, name);
 }
 
-bool is_data_uri(const std::string& uri) { return lower(uri.substr(0, 5)) == "data:"; }
+bool is_data_uri(std::string_view uri) { return lower(uri.substr(0, 5)) == "data:"; }
 
 Bytes read_uri(const UriBase& base, const std::string& uri, const std::string& where,
                const BeforeBytes& before) {

@@ -31,7 +31,7 @@ GltfText read_gltf_text(
     const BeforeBytes& before = [](std::uint64_t) {});
 
 /// The JSON of a .gltf or .glb file, and nothing else of it. Throws Error.
-Bytes read_gltf_json(const std::filesystem::path& file);
+Bytes read_gltf_json(const std::filesystem::path& file, const BeforeBytes& before);
 
 /// The folder and the name that a scene file's URIs are relative to.
 struct UriBase {
@@ -54,7 +54,7 @@ Bytes read_uri(const UriBase& base, const std::string& uri, const std::string& w
                const BeforeBytes& before);
 
 /// Whether a URI holds its data; schemes are compared without regard to case.
-bool is_data_uri(const std::string& uri);
+bool is_data_uri(std::string_view uri);
 
 /// The text with %XX replaced; a '%' that no two hex digits follow stands for itself.
 std::string percent_decoded(const std::string& text);

@@ -99,6 +99,22 @@ std::vector<SceneLight> convert_lights(const GltfDocument& document, const Place
     return lights;
 }
 
+void report_cones(const GltfDocument& document) {
+    std::string first;
+    std::size_t more = 0;
+    for (std::size_t i = 0; i < document.lights.size(); ++i) {
+        const std::string problem = cone_problem(convert_light(document.lights[i], glm::dmat4(1)));
+        if (problem.empty()) continue;
+        if (first.empty()) {
+            first = element_name("lights", i) + ": " + problem;
+        } else {
+            ++more;
+        }
+    }
+    if (first.empty()) return;
+    document.leave_out(more == 0 ? first : fmt::format("{}; likewise {} more", first, more));
+}
+
 std::vector<SceneCamera> convert_cameras(const GltfDocument& document, const PlacedNodes& nodes) {
     std::vector<SceneCamera> cameras;
     for (const std::size_t n : nodes.in_scene) {

@@ -9,6 +9,9 @@ namespace kilolux {
 /// and counts those lights.
 std::vector<SceneLight> convert_lights(const GltfDocument& document, const PlacedNodes& nodes);
 
+/// Reports cones that KHR_lights_punctual does not allow; their lights get the nearest ones.
+void report_cones(const GltfDocument& document);
+
 /// The cameras at their nodes, parents first. Throws Error for invalid values.
 std::vector<SceneCamera> convert_cameras(const GltfDocument& document, const PlacedNodes& nodes);
 

@@ -45,9 +45,8 @@ void LoadBudget::charge(std::uint64_t count, std::uint64_t bytes_each, const std
 void LoadBudget::charge_memory(std::uint64_t bytes, const std::string& where) {
     if (take(memory_left_, bytes)) return;
     throw MemoryError(
-        fmt::format("{}: needs {} of memory, {} MiB of {} for buffers, images and meshes are "
-                    "left (--max-memory)",
-                    where, mebibytes(bytes), memory_left_ >> 20, mebibytes(memory_limit_)));
+        where + ": " +
+        shortage_text(bytes, "memory for buffers, images and meshes", memory_left_, memory_limit_));
 }
 
 MemoryCharge LoadBudget::borrow_memory(std::uint64_t bytes, const std::string& where) {

@@ -194,11 +194,10 @@ Environment read_environment(const std::filesystem::path& file, std::uint64_t ma
     }
     // Its light, and sums of it.
     const std::uint64_t need = image.pixels() * (sizeof(glm::vec3) + sizeof(double));
-    const std::uint64_t most =
-        max_memory_bytes > 0 ? max_memory_bytes : available_memory_bytes() / 2;
+    const std::uint64_t most = loading_limit(max_memory_bytes);
     if (need > most) {
-        throw Error(fmt::format("{}: needs {} of memory as an environment, of {} (--max-memory)",
-                                file.string(), mebibytes(need), mebibytes(most)));
+        throw Error(file.string() + ": " +
+                    shortage_text(need, "memory as an environment", most, most));
     }
     out.rows.resize(out.place(0, out.height));
     in->read(0, 3, SampleType::float32, out.rows.data(), sizeof(glm::vec3));

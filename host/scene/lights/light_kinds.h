@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <string_view>
 
 #include "host/base/scene_features.h"
@@ -68,6 +71,15 @@ inline bool has_good_numbers(const SceneLight& light) {
         return !(kind_of(light).*number.has) ||
                (std::isfinite(value) && (!number.is_positive || value > 0.0f));
     });
+}
+
+/// Says what KHR_lights_punctual does not allow of a light's cone; empty where it allows it.
+inline std::string cone_problem(const SceneLight& light) {
+    constexpr float kWidest = 1.5708f;  // [rad], a quarter turn, rounded up
+    const float inner = light.inner_cone, outer = light.outer_cone;
+    if (!kind_of(light).has_cone || (0.0f <= inner && inner < outer && outer <= kWidest)) return "";
+    return fmt::format("inner cone {}, outer cone {}: must be 0 <= inner < outer <= pi / 2", inner,
+                       outer);
 }
 
 }  // namespace kilolux

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -189,6 +190,41 @@ TEST(LoadSceneBroken, NamesFilesThatAreNoGltf) {
     EXPECT_NE(error_of(std::string(1000000, '[')).find("nested deeper"), std::string::npos);
     EXPECT_NE(load_error(folder.path() / "none.gltf").find("no such file"), std::string::npos);
     EXPECT_NE(load_error(folder.path()).find("not a regular file"), std::string::npos);
+}
+
+std::string long_data_uri(std::size_t bytes) {
+    return "data:application/octet-stream;base64," + std::string(bytes / 3 * 4, 'A');
+}
+
+// Data URIs are decoded where they stand, and the parser sees shorter ones.
+TEST(LoadSceneBroken, NamesTheColumnOfTheFileBehindDataUris) {
+    const TempFolder folder;
+    const std::string uri = '"' + long_data_uri(6000) + '"';
+    const std::string two = "\"a\":" + uri + ",\"b\":" + uri + ",";
+    for (const std::string& before :
+         {"{" + two, "{" + two + "\n" + two, "{" + two + "\n", "{\n" + two}) {
+        write_file(folder.path() / "x.gltf", before + ":");
+        const std::string error = load_error(folder.path() / "x.gltf");
+        const std::size_t line = before.find('\n') == std::string::npos ? 1 : 2;
+        const std::size_t column = before.size() - (before.rfind('\n') + 1) + 1;
+        EXPECT_NE(error.find(fmt::format("at line {}, column {}:", line, column)),
+                  std::string::npos)
+            << error;
+    }
+}
+
+// The short texts that stand for long data URIs are no URIs of the file.
+TEST(LoadSceneBroken, TakesNoUriForAnotherOfTheFile) {
+    GltfBuilder file = triangle_file();
+    file.add("images", {{"uri", long_data_uri(6000)}});
+    const std::string name = long_data_uri(6000).substr(0, 80) + "#0";
+    file.root["buffers"] = {{{"byteLength", 6000}, {"uri", long_data_uri(6000)}},
+                            {{"byteLength", 60}, {"uri", name}}};
+    file.root["bufferViews"][0]["buffer"] = 1;
+    const TempFolder folder;
+    write_file(folder.path() / "x.gltf", file.root.dump());
+    const std::string error = load_error(folder.path() / "x.gltf");
+    EXPECT_NE(error.find("buffers[1]: data URI holds broken base64"), std::string::npos) << error;
 }
 
 TEST(LoadSceneBroken, LoadsFilesWithHarmlessDefects) {

@@ -33,6 +33,16 @@ std::string strict_error(const GltfBuilder& file) {
     return load_error(folder.path() / "scene.gltf", options);
 }
 
+GltfBuilder file_with_spots(const std::vector<json>& cones) {
+    GltfBuilder file = triangle_file();
+    file.root["extensions"]["KHR_lights_punctual"]["lights"] = json::array();
+    for (const json& cone : cones) {
+        file.root["extensions"]["KHR_lights_punctual"]["lights"].push_back(
+            {{"type", "spot"}, {"spot", cone}});
+    }
+    return file;
+}
+
 TEST(LoadSceneExtensions, OneWarningNamesWhatIsLeftOutAndHowItShows) {
     const json names = {"KHR_materials_transmission", "KHR_materials_volume",
                         "KHR_texture_transform", "ACME_glitter", "KHR_xmp_json_ld"};
@@ -130,6 +140,29 @@ TEST(LoadSceneVariants, TheirIndicesAreChecked) {
                          "variants[1] is 3, must be an index into the 3 variants"));
     EXPECT_TRUE(contains(error_with("/extensions/KHR_materials_variants/variants/0/name", 7),
                          "variants[0].name is 7, must be a string"));
+}
+
+TEST(LoadSceneLights, ReportConesThatTheExtensionDoesNotAllow) {
+    const json half_turn = {{"innerConeAngle", 0}, {"outerConeAngle", 1.5707963705062866}};
+    EXPECT_EQ(warning_of(file_with_spots({json::object(), half_turn})), "") << "rounded to a float";
+    const json wrong[] = {{{"outerConeAngle", 4}},
+                          {{"innerConeAngle", 0.5}, {"outerConeAngle", 0.5}},
+                          {{"innerConeAngle", -0.1}},
+                          {{"outerConeAngle", -1}},
+                          {{"innerConeAngle", 1}}};
+    for (const json& cone : wrong) {
+        const GltfBuilder file = file_with_spots({half_turn, cone});
+        for (const std::string& said : {warning_of(file), strict_error(file)}) {
+            EXPECT_TRUE(contains(said, "scene.gltf: ") &&
+                        contains(said, "lights[1]: inner cone ") &&
+                        contains(said, ": must be 0 <= inner < outer <= pi / 2"))
+                << said;
+        }
+    }
+    const std::string many = warning_of(file_with_spots({wrong[0], wrong[1], half_turn, wrong[2]}));
+    EXPECT_TRUE(contains(many, "lights[0]: inner cone 0, outer cone 4: must be ")) << many;
+    EXPECT_TRUE(contains(many, "pi / 2; likewise 2 more\n")) << many;
+    EXPECT_EQ(std::ranges::count(many, '\n'), 1);
 }
 
 }  // namespace

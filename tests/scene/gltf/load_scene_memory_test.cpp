@@ -81,7 +81,7 @@ TEST(LoadSceneMemory, BoundsImagesTogether) {
     EXPECT_EQ(error_with(file_with_images(4), 2 << 20), "");
     const std::string error = error_with(file_with_images(40), 2 << 20);
     EXPECT_NE(error.find("scene.glb: images["), std::string::npos) << error;
-    EXPECT_NE(error.find("needs 1 MiB of memory, 0 MiB of 2 MiB for buffers, images and meshes are "
+    EXPECT_NE(error.find("needs 1 MiB of memory for buffers, images and meshes, 0 MiB of 2 MiB are "
                          "left (--max-memory)"),
               std::string::npos)
         << error;

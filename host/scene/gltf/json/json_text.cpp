@@ -8,6 +8,7 @@
 #include <charconv>
 
 #include "host/base/error.h"
+#include "host/base/hash.h"
 #include "host/base/text.h"
 #include "host/scene/gltf/json/json_memory.h"
 
@@ -16,6 +17,7 @@ namespace {
 
 constexpr std::size_t kLongUri = 4096;     // [character]; shorter ones stay in the JSON
 constexpr std::size_t kNameLength = 80;    // what messages show of a URI
+constexpr std::size_t kKeyLength = 16;     // of hash_text()
 constexpr std::size_t kLongestHead = 256;  // of a data URI, up to its comma
 
 constexpr std::array<std::int8_t, 256> base64_values() {
@@ -35,10 +37,10 @@ int base64_value(char digit) { return kBase64Values[static_cast<unsigned char>(d
 
 // Where the data of a long base64 data URI begin, or 0 for another text.
 std::size_t data_of_long_uri(std::string_view text) {
-    if (text.size() < kLongUri || lower(std::string(text.substr(0, 5))) != "data:") return 0;
+    if (text.size() < kLongUri || !is_data_uri(text)) return 0;
     const std::size_t comma = text.substr(0, kLongestHead).find(',');
     if (comma == std::string_view::npos) return 0;
-    return lower(std::string(text.substr(0, comma))).ends_with(";base64") ? comma + 1 : 0;
+    return lower(text.substr(0, comma)).ends_with(";base64") ? comma + 1 : 0;
 }
 
 // The end of the string whose contents begin at `begin`.
@@ -53,12 +55,6 @@ std::size_t string_end(std::string_view text, std::size_t begin, bool& has_escap
         if (quote < from) quote = std::min(text.find('"', from), text.size());
     }
 }
-
-// A part of the text that a shorter one replaces.
-struct Replaced {
-    std::size_t begin = 0;
-    std::size_t size = 0;
-};
 
 class Survey {
  public:
@@ -112,7 +108,7 @@ class Survey {
         const std::string_view text = text_.substr(begin, length);
         if (const std::size_t data = has_escapes ? 0 : data_of_long_uri(text)) {
             add_data_uri(begin, text, data);
-            length = out_.data.back().name.size();
+            length -= out_.data.back().saved;
         }
         counts_.add_string(length);
         after_string_ = true;
@@ -128,15 +124,16 @@ class Survey {
 
     void add_data_uri(std::size_t begin, std::string_view text, std::size_t data) {
         DataUri uri;
-        uri.name = fmt::format("{}#{}", head_of(text), out_.data.size());
+        uri.name = fmt::format("{}#{}-", head_of(text), out_.data.size());
+        uri.begin = begin - saved_;
+        uri.saved = text.size() - uri.name.size() - kKeyLength;
         try {
             unsigned char* place = bytes_ + begin + data;
             uri.bytes = {place, decode_base64(text.substr(data), place)};
         } catch (const Error& error) {
             uri.broken = error.what();
         }
-        replaced_.push_back({begin, text.size()});
-        saved_ += text.size() - uri.name.size();
+        saved_ += uri.saved;
         out_.data.push_back(std::move(uri));
     }
 
@@ -144,12 +141,19 @@ class Survey {
         before(text_.size() - saved_);
         out_.short_text.reserve(text_.size() - saved_);
         std::size_t from = 0;
-        for (std::size_t i = 0; i < replaced_.size(); ++i) {
-            out_.short_text += text_.substr(from, replaced_[i].begin - from);
-            out_.short_text += out_.data[i].name;
-            from = replaced_[i].begin + replaced_[i].size;
+        for (const DataUri& uri : out_.data) {
+            const std::size_t begin = uri.begin + from - out_.short_text.size();
+            out_.short_text += text_.substr(from, begin - from);
+            out_.short_text += uri.name + std::string(kKeyLength, ' ');
+            from = begin + uri.name.size() + kKeyLength + uri.saved;
         }
         out_.short_text += text_.substr(from);
+        // No text of the file is a name by chance: the key depends on all of them.
+        const std::string key = hash_text(out_.short_text);
+        for (DataUri& uri : out_.data) {
+            out_.short_text.replace(uri.begin + uri.name.size(), kKeyLength, key);
+            uri.name += key;
+        }
         out_.text = out_.short_text;
     }
 
@@ -159,14 +163,24 @@ class Survey {
     JsonCounts counts_;
     std::vector<std::uint64_t> open_;  // elements of each array around here; 0 for an object
     bool after_string_ = false;
-    std::vector<Replaced> replaced_;
-    std::size_t saved_ = 0;  // by shorten()
+    std::size_t saved_ = 0;  // by shorten(), of what is surveyed
 };
 
 }  // namespace
 
 JsonText survey_json(Bytes& file, std::string_view text, const BeforeBytes& before) {
     return Survey(file, text).run(before);
+}
+
+std::size_t saved_before(const JsonText& text, std::size_t place) {
+    const std::string_view before = text.text.substr(0, place);
+    const std::size_t end = before.rfind('\n');
+    const std::size_t line = end == std::string_view::npos ? 0 : end + 1;
+    std::size_t saved = 0;
+    for (const DataUri& uri : text.data) {
+        if (uri.begin >= line && uri.begin < place) saved += uri.saved;
+    }
+    return saved;
 }
 
 const DataUri* find_data_uri(const std::vector<DataUri>& data, const std::string& uri) {

@@ -15,9 +15,11 @@ constexpr std::size_t kDeepestJson = 100;
 /// A long data URI of a file's JSON. Its bytes are decoded where its text stood, and the JSON names
 /// it by a short text.
 struct DataUri {
-    std::string name;      // what the JSON holds: the URI's beginning, and "#" with its number
-    ByteSpan bytes;        // of the file's memory
-    std::string broken{};  // what is wrong with its base64; empty if nothing is
+    std::string name;       // what the JSON holds: the URI's beginning, "#", its number and a key
+    ByteSpan bytes;         // of the file's memory
+    std::string broken{};   // what is wrong with its base64; empty if nothing is
+    std::size_t begin = 0;  // of the name in the JSON
+    std::size_t saved = 0;  // characters that the name is shorter than the URI
 };
 
 /// The JSON of a file before it is parsed.
@@ -33,6 +35,9 @@ struct JsonText {
 /// Surveys the JSON `text`, a part of `file`, and decodes its long data URIs there. `before` is
 /// called with the size of `short_text`.
 JsonText survey_json(Bytes& file, std::string_view text, const BeforeBytes& before);
+
+/// Characters of the file that `text` lacks on the line of its character `place`, before that.
+std::size_t saved_before(const JsonText& text, std::size_t place);
 
 /// The data URI that a uri of the JSON stands for; nullptr if it stands for itself.
 const DataUri* find_data_uri(const std::vector<DataUri>& data, const std::string& uri);
