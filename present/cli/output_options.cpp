@@ -266,8 +266,7 @@ void check_output_options(const SharedOptions& shared, const OutputOptions& opti
     check_parts(shared.settings, options);
     check_motion(shared.camera, options);
     check_format(shared, options);
-    refuse_if(is_of_farm(shared.progress) && (options.stats == "-" || options.output == "-"),
-              "--progress: standard output is that of --stats or the video; name a file");
+    check_progress(shared.progress, options.stats == "-" || options.output == "-");
     const bool compares = !options.reference.empty();
     refuse_if(!compares && options.threshold, "--threshold: needs --reference FILE");
     refuse_if(compares && options.skip_existing,

@@ -10,6 +10,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "host/base/error.h"
+
 namespace kilolux {
 namespace {
 
@@ -17,6 +19,10 @@ int terminal_columns() {
     winsize size = {};
     if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
     return size.ws_col;
+}
+
+bool is_of_farm(ProgressKind kind) {
+    return kind == ProgressKind::openjd || kind == ProgressKind::alf;
 }
 
 double share_of(std::size_t done, std::size_t total) {
@@ -57,8 +63,11 @@ ProgressKind progress_kind_of_part(ProgressKind kind) {
     return is_of_farm(kind) ? ProgressKind::none : kind;
 }
 
-bool is_of_farm(ProgressKind kind) {
-    return kind == ProgressKind::openjd || kind == ProgressKind::alf;
+void check_progress(ProgressKind kind, bool prints_result) {
+    if (!prints_result || !is_of_farm(kind)) return;
+    throw UsageError(
+        "--progress: its lines would stand in the result on standard output; write that "
+        "to a file");
 }
 
 std::string farm_line(ProgressKind kind, double share) {

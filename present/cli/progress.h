@@ -29,8 +29,8 @@ ProgressKind progress_kind(ProgressKind asked, bool quiet);
 /// The kind for a part of a job: a farm reads that of the job alone.
 ProgressKind progress_kind_of_part(ProgressKind kind);
 
-/// Whether its lines go to standard output.
-bool is_of_farm(ProgressKind kind);
+/// Throws UsageError where lines for a farm would stand in a result on standard output.
+void check_progress(ProgressKind kind, bool prints_result);
 
 /// The line for a farm, or "" where `kind` has none. `share`: 0 to 1.
 std::string farm_line(ProgressKind kind, double share);

@@ -30,6 +30,7 @@ void check(const BenchOptions& o) {
 void run_bench(BenchOptions& options) {
     check(options);
     begin_command(options.shared);
+    check_progress(options.shared.progress, options.json);
     measure_swarm(options.shared);
     if (!options.tables.empty()) {
         std::fputs(results_text(options.tables).c_str(), stdout);

@@ -208,6 +208,7 @@ void run_report(ReportOptions& options, const CLI::App& command) {
     apply_quick(command, options);
     apply_axes(command, options);
     begin_command(options.shared);
+    check_progress(options.shared.progress, options.json);
     make_output_folder(options.output);
     if (!options.output.empty()) load_image_library();
     SharedOptions& shared = options.shared;

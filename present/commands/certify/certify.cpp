@@ -46,8 +46,7 @@ void check(const CertifyOptions& o) {
             "--table: prints what was certified; it goes with no --case, --with, --isolate, "
             "--jobs, --resume or -o");
     }
-    refuse_if(o.output == "-" && is_of_farm(o.progress),
-              "--progress: standard output is the result's; name a file after -o");
+    check_progress(o.progress, o.output == "-");
     refuse_if(o.resume && (o.output.empty() || o.output == "-"),
               "--resume: goes on with the file of -o, which is not given");
 }
