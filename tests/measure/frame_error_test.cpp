@@ -28,5 +28,18 @@ TEST(FrameError, TheReferenceHasShadows) {
     EXPECT_LT(largest_error(scene, settings), kRounding);
 }
 
+// A light is weighed by the chance that its range was drawn to reach so far.
+TEST(FrameError, TheReferenceHasDrawnRanges) {
+    Scene scene = grid_with_every_light();
+    for (SceneLight& light : scene.lights) {
+        light.range = 0.0f;
+        light.intensity *= 0.03f;  // bounded ranges that end within the scene
+        light.outer_cone = 1.5f;
+    }
+    RenderSettings settings = small_settings(64, 36, 0);
+    settings.tails = Tails::stochastic;
+    EXPECT_LT(largest_error(scene, settings), kRounding);
+}
+
 }  // namespace
 }  // namespace kilolux
