@@ -27,7 +27,7 @@ constexpr const char* kExitCodes =
     "  1  runtime error (file, device, driver); one line on stderr says which\n"
     "  2  the command line cannot be obeyed\n"
     "  3  a comparison with --reference, or a hard case of certify, failed\n"
-    "130  interrupted; 143 by SIGTERM";
+    "128+N  ended by signal N: 130 SIGINT, 143 SIGTERM";
 
 using Words = std::vector<std::string>;
 

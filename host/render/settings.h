@@ -57,9 +57,9 @@ struct GridSettings {
     bool operator==(const GridSettings&) const = default;
 };
 
-/// How shading kernels compute: as OpenCL C demands it, with -cl-fast-relaxed-math, which lets
-/// lists change the order of sums, or with the
-/// device's native square roots and reciprocals.
+/// How shading kernels compute: as OpenCL C demands it, with -cl-fast-relaxed-math, by which
+/// the compiler may order sums otherwise in each kernel, or with the device's native square roots
+/// and reciprocals.
 enum class MathMode { exact, fast_relaxed, native };
 
 /// In which precision shading kernels store the colours of lights.

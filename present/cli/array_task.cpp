@@ -13,12 +13,25 @@
 namespace kilolux {
 namespace {
 
+bool is_set(const char* variable) {
+    const char* text = std::getenv(variable);
+    return text != nullptr && *text != '\0';
+}
+
 const ArrayVariables& variables_of_task(const std::string& option) {
+    const ArrayVariables* found = nullptr;
     std::vector<std::string> names;
     for (const ArrayVariables& row : kArrayVariables) {
-        if (std::getenv(row.index) != nullptr) return row;
         names.emplace_back(row.index);
+        if (!is_set(row.index)) continue;
+        // A task that starts others hands its variables down: all would take its shard.
+        if (found != nullptr) {
+            throw UsageError(fmt::format("{} auto: both {} and {} are set; name the shard as I/N",
+                                         option, found->index, row.index));
+        }
+        found = &row;
     }
+    if (found != nullptr) return *found;
     throw UsageError(fmt::format("{} auto: the environment has none of {}; name the shard as I/N",
                                  option, joined(names)));
 }
@@ -26,7 +39,7 @@ const ArrayVariables& variables_of_task(const std::string& option) {
 // A whole number of the environment.
 int number_in(const std::string& option, const char* variable) {
     const char* text = std::getenv(variable);
-    if (text == nullptr) {
+    if (!is_set(variable)) {
         throw UsageError(fmt::format("{} auto: the environment lacks {}", option, variable));
     }
     const auto number = count_of(text);
@@ -35,14 +48,21 @@ int number_in(const std::string& option, const char* variable) {
         fmt::format("{} auto: {} is '{}', no whole number from 0 on", option, variable, text));
 }
 
-Shard checked_shard(const std::string& option, const ArrayVariables& row, std::int64_t index,
-                    int count) {
-    if (index >= 0 && index < count) return {static_cast<int>(index), count, row.index};
+// Of `count` tasks with indices from `first` on.
+Shard checked_shard(const std::string& option, const ArrayVariables& row, std::int64_t place,
+                    int count, int first) {
+    if (place >= 0 && place < count) return {static_cast<int>(place), count, row.index};
     throw UsageError(fmt::format("{} auto: {} is {}, which is none of {} tasks from {} on", option,
-                                 row.index, std::getenv(row.index), count, row.base));
+                                 row.index, std::getenv(row.index), count, first));
 }
 
 }  // namespace
+
+std::string schedulers() {
+    std::vector<std::string> names;
+    for (const ArrayVariables& row : kArrayVariables) names.emplace_back(row.scheduler);
+    return joined(names);
+}
 
 Shard shard_of_task(const std::string& option) {
     const ArrayVariables& row = variables_of_task(option);
@@ -59,12 +79,13 @@ Shard shard_of_task(const std::string& option) {
         throw UsageError(fmt::format("{} auto: {}'s array is no range of indices; write auto/N",
                                      option, row.scheduler));
     }
-    return checked_shard(option, row, place / step, count);
+    return checked_shard(option, row, place / step, count, first);
 }
 
 Shard shard_of_task(const std::string& option, int count) {
     const ArrayVariables& row = variables_of_task(option);
-    return checked_shard(option, row, std::int64_t{number_in(option, row.index)} - row.base, count);
+    const std::int64_t place = std::int64_t{number_in(option, row.index)} - row.base;
+    return checked_shard(option, row, place, count, row.base);
 }
 
 }  // namespace kilolux

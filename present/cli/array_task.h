@@ -19,7 +19,7 @@ struct ArrayVariables {
     int base;           // the usual least index
 };
 
-/// The first row whose index is set counts: a scheduler's task may start others.
+/// Of a task one index is set.
 inline constexpr auto kArrayVariables = std::to_array<ArrayVariables>({
     {"Slurm", "SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_COUNT", "SLURM_ARRAY_TASK_MIN",
      "SLURM_ARRAY_TASK_STEP", 0},
@@ -29,8 +29,11 @@ inline constexpr auto kArrayVariables = std::to_array<ArrayVariables>({
     {"GNU parallel", "PARALLEL_SEQ", nullptr, nullptr, nullptr, 1},
 });
 
+/// "Slurm, Kubernetes, ..."
+std::string schedulers();
+
 /// This task's shard of as many as the scheduler has tasks. Throws UsageError that starts with
-/// `option` where no variable is set, or the scheduler does not tell the number.
+/// `option` where no index or several are set, or the scheduler does not tell the number.
 Shard shard_of_task(const std::string& option);
 
 /// This task's shard of `count`, where the scheduler's least index is the usual one: also right

@@ -46,6 +46,7 @@ std::string file_line(const fs::path& file) {
         size += seen.size();
         hashes += hash_text(seen);
     } while (in);
+    if (in.bad()) throw Error(file.string() + ": cannot be read to its end");
     return fmt::format("{} {} {}\n", file.filename().string(), size, hash_text(hashes));
 }
 

@@ -115,7 +115,7 @@ const Choices& choices_of(SeenFrom) {
 const Choices& choices_of(ProgressKind) {
     static const Choices choices = {
         {"auto", "a bar on a terminal, else plain"},
-        {"plain", "a line on stderr every 10 s at least"},
+        {"plain", "a line on stderr every 10 s"},
         {"openjd", "\"openjd_progress: 41.5\" on stdout, for Open Job Description"},
         {"alf", "\"ALF_PROGRESS 41%\" on stdout, for Tractor and others"},
         {"none", "nothing; auto with --quiet"}};

@@ -6,6 +6,7 @@
 #include "host/base/error.h"
 #include "host/base/suggest.h"
 #include "host/render/plan/memory_plan.h"
+#include "present/cli/array_task.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/options.h"
 #include "present/image/image_file.h"
@@ -94,9 +95,9 @@ void visit_sequence(const SettingVisitor& f, OutputOptions& o) {
         .number({"--fps", "F", "", "Frames a second", one_file ? kPicture : kNeither},
                 o.frames_per_second, {0.0, 1e6, true})
         .value({"--shard", "I/N", "0/1",
-                "Only every N-th frame, from the I-th on, counted from 0; auto, auto/N: I, and N "
-                "if need be, by the variables of Slurm, Kubernetes, AWS Batch, Open MPI or GNU "
-                "parallel"},
+                "Every N-th frame or tile from the I-th on, counted from 0. auto: I and N by the "
+                "variables of " +
+                    schedulers() + "; auto/N: I alone"},
                o.shard, parse_shard)
         .value({"--crop", "X,Y,W,H", "",
                 "Only these pixels of the picture, with the same bits; an EXR file has them as its "
@@ -159,7 +160,7 @@ void check_sequence(const OutputOptions& options) {
 }
 
 void check_parts(const RenderSettings& settings, const OutputOptions& options) {
-    refuse_if(options.tiles && options.frames, "--tiles: are of one picture; leave out --frames");
+    refuse_if(options.tiles && options.frames, "--tiles: divides one picture; leave out --frames");
     refuse_if(options.tiles && options.crop, "--tiles and --crop exclude each other");
     const auto check = [&](const PixelRect& part, const char* name) {
         refuse_if(part.width > settings.width - part.x || part.height > settings.height - part.y ||

@@ -71,10 +71,11 @@ void check_progress(ProgressKind kind, bool prints_result) {
 }
 
 std::string farm_line(ProgressKind kind, double share) {
-    const double percent = 100.0 * share;
-    if (kind == ProgressKind::openjd) return fmt::format("openjd_progress: {:.1f}", percent);
+    // Rounded down: what is not done is not 100.
+    if (kind == ProgressKind::openjd)
+        return fmt::format("openjd_progress: {:.1f}", std::floor(1000.0 * share) / 10.0);
     if (kind == ProgressKind::alf)
-        return fmt::format("ALF_PROGRESS {}%", static_cast<int>(percent));
+        return fmt::format("ALF_PROGRESS {}%", static_cast<int>(100.0 * share));
     return "";
 }
 

@@ -19,8 +19,8 @@ std::string duration_text(double seconds);
 std::string progress_line(const std::string& label, std::size_t done, std::size_t total,
                           double elapsed_s, int width);
 
-/// How progress is told: automatic is a bar on a terminal, else plain lines on stderr; OpenJD and
-/// Alfred are the lines that render farms read on stdout.
+/// How progress is told: automatic is a bar on a terminal, else plain lines on stderr; openjd and
+/// alf are the lines that Open Job Description and Tractor read on stdout.
 enum class ProgressKind { automatic, plain, openjd, alf, none };
 
 /// The kind for a command with or without --quiet.
@@ -35,8 +35,8 @@ void check_progress(ProgressKind kind, bool prints_result);
 /// The line for a farm, or "" where `kind` has none. `share`: 0 to 1.
 std::string farm_line(ProgressKind kind, double share);
 
-/// Tells how far a job is. Lines come at most once in `line_s` seconds, and as often while one step
-/// takes longer; a farm's lines at each step, too. A bar is erased when it ends.
+/// Tells how far a job is: by a bar, which is erased at the end, or by a line every `line_s`
+/// seconds, also during a long step. A farm gets a line at each step, too.
 class Progress {
  public:
     Progress(std::string label, std::size_t total, ProgressKind kind, double line_s = 10.0);

@@ -203,7 +203,8 @@ void visit_settings(SharedOptions& options, const SettingVisitor& f) {
     visit_device(f, options.settings);
     OptionBuilder(f, "General")
         .choice({"--progress", "", "", "How a job tells how far it is"}, options.progress)
-        .flag("--quiet,-q", options.quiet, "Only warnings and errors on stderr")
+        .flag("--quiet,-q", options.quiet,
+              "Only warnings and errors on stderr, and what --progress asks for")
         .flag("--verbose,-v", options.verbose, "More on stderr");
 }
 

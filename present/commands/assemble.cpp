@@ -24,12 +24,14 @@ void run_assemble(AssembleOptions& options) {
     refuse_if(options.output.empty(), "--output: needs a file, e.g. -o whole.exr");
     if (options.quiet) set_verbosity(Verbosity::quiet);
     check_can_write_image(options.output);
-    Progress progress("joining", kSteps, progress_kind(options.progress, options.quiet));
-    std::size_t steps = 0;
-    join_tiles(options.output, options.tiles, [&](double share) {
-        check_interrupt();
-        for (; steps < static_cast<std::size_t>(share * kSteps); ++steps) progress.advance();
-    });
+    {
+        Progress progress("joining", kSteps, progress_kind(options.progress, options.quiet));
+        std::size_t steps = 0;
+        join_tiles(options.output, options.tiles, [&](double share) {
+            check_interrupt();
+            for (; steps < static_cast<std::size_t>(share * kSteps); ++steps) progress.advance();
+        });
+    }
     note(fmt::format("wrote   {} of {} tiles", options.output.string(), options.tiles.size()));
 }
 

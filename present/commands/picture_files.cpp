@@ -94,6 +94,15 @@ std::unique_ptr<VideoFile> open_video(const RenderOptions& options) {
     return std::make_unique<VideoFile>(out.output, wanted.format, wanted.note);
 }
 
+// Of a single picture in strips these are told instead.
+ProgressKind shown_progress(const RenderOptions& options, std::size_t count,
+                            const Renderer& renderer) {
+    const OutputOptions& out = options.output;
+    const bool tells_strips =
+        count == 1 && !out.crop && !out.tiles && !out.frames && renderer.strips().size() > 1;
+    return tells_strips ? ProgressKind::none : options.shared.shown_progress();
+}
+
 std::size_t bytes_of(const Frame& frame) {
     std::size_t bytes = (frame.radiance.size() + frame.shown_light.size()) * sizeof(float);
     for (const Layer& layer : frame.aovs) {
@@ -176,10 +185,11 @@ PictureFiles::PictureFiles(const RenderOptions& options, std::size_t count,
                            const Renderer& renderer)
     : options_(options),
       video_(open_video(options)),
-      progress_("rendering", count, options.shared.shown_progress()),
+      progress_("rendering", count, shown_progress(options, count, renderer)),
       memory_(renderer.memory()),
       count_(count) {
-    if (!options.output.stats.empty() && options.output.frames) written_.log.emplace();
+    const OutputOptions& out = options.output;
+    if (!out.stats.empty() && (out.frames || out.tiles)) written_.log.emplace();
 }
 
 PictureFiles::~PictureFiles() {

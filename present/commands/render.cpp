@@ -119,17 +119,20 @@ std::vector<std::string> take_devices(RenderOptions& options) {
 
 // Renders and writes the pictures from `begin` on.
 void render_from(RenderOptions& options, const PictureTasks& tasks, std::size_t begin,
-                 const std::vector<std::string>& more_devices) {
+                 const std::vector<std::string>& others) {
     const OutputOptions& out = options.output;
     const PictureTask first = tasks[begin];
     const CameraMotion motion(options.shared, out);
     const auto camera = [&motion](const Scene& scene, int frame, double time) {
         return motion.at(scene, frame, time);
     };
+    const bool is_one_crop = tasks.size() - begin == 1 && first.crop.has_value();
+    std::vector<std::string> more_devices = is_one_crop ? std::vector<std::string>{} : others;
+    if (more_devices.size() < others.size()) note("device  one device makes a crop");
     FirstPicture start{request_of(options, options.shared.settings.want), first.time, first.frame,
                        camera};
     DeviceHelpers* helpers = nullptr;  // of a single picture
-    if (!more_devices.empty() && tasks.size() - begin == 1 && !first.crop) {
+    if (!more_devices.empty() && tasks.size() - begin == 1) {
         start.want.strip_makers *= static_cast<int>(1 + more_devices.size());
         start.on_lit = [&](const Scene& scene,
                            const RenderSettings& settings) -> std::shared_ptr<void> {

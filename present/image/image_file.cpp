@@ -324,7 +324,7 @@ ImageLayout layout_of_whole(const std::filesystem::path& file, const ImageLayout
     return out;
 }
 
-bool are_of_lossless_format(const std::filesystem::path& a, const std::filesystem::path& b) {
+bool share_lossless_format(const std::filesystem::path& a, const std::filesystem::path& b) {
     const std::string_view format = format_of(a).plugin;
     return format == format_of(b).plugin && can_stream(a) && format != "jpeg";
 }

@@ -106,7 +106,8 @@ FileRows file_rows(const std::filesystem::path& file, int height, const Frame& f
                    const ImageNotes& notes, const ImageOptions& options);
 
 /// The layout of a picture of `width` x `height` pixels in the form of its file, as file_rows()
-/// makes it, from that of a file of a part of it; `without`: what notes of the part have more.
+/// makes it, from that of a file of a part of it; `without`: a text to be left out of
+/// the part's notes.
 ImageLayout layout_of_whole(const std::filesystem::path& file, const ImageLayout& part, int width,
                             int height, const std::string& without);
 
@@ -114,7 +115,7 @@ ImageLayout layout_of_whole(const std::filesystem::path& file, const ImageLayout
 bool can_stream(const std::filesystem::path& file);
 
 /// Whether files of both names have the same format, which keeps pixels as they are.
-bool are_of_lossless_format(const std::filesystem::path& a, const std::filesystem::path& b);
+bool share_lossless_format(const std::filesystem::path& a, const std::filesystem::path& b);
 
 /// A picture's file that is written from the top down: the bytes of encode_image() where strips but
 /// the last one are whole blocks of kFileBlockRows. Whole or not at all.

@@ -20,11 +20,12 @@ namespace fs = std::filesystem;
 
 struct Tile {
     fs::path file;
-    std::unique_ptr<ImageReader> image;
+    ImageLayout layout;
     PixelRect place;
-    std::string crop;     // " --crop X,Y,W,H" of its note
-    std::string command;  // of its note, without that
-    const ImageLayout& layout() const { return image->layout(); }
+    std::string crop{};                    // " --crop X,Y,W,H" of its note
+    std::string command{};                 // of its note, without that
+    std::string time{};                    // of its note
+    std::unique_ptr<ImageReader> image{};  // while its rows are read
 };
 
 constexpr const char* kCrop = " --crop ";
@@ -39,22 +40,34 @@ std::pair<int, int> noted_size(const std::string& command) {
                             command.substr(begin, command.find(' ', begin) - begin));
 }
 
-Tile open_tile(const fs::path& file) {
-    Tile out{file, open_image(file), {}, "", ""};
-    out.command = note_in(file, out.layout(), "command");
+// What `parse` makes of a part of a file's note.
+template <typename Parse>
+auto of_note(const fs::path& file, const Parse& parse) {
+    try {
+        return parse();
+    } catch (const UsageError& error) {
+        throw Error(
+            fmt::format("{}: its note of the command is broken: {}", file.string(), error.what()));
+    }
+}
+
+Tile find_tile(const fs::path& file) {
+    Tile out{file, open_image(file)->layout(), {}};
+    out.command = note_in(file, out.layout, "command");
+    out.time = note_in(file, out.layout, "time");
     const std::size_t at = out.command.find(kCrop);
     if (at == std::string::npos) {
         throw Error(file.string() + ": has no note of a --crop, so its place is unknown");
     }
     const std::size_t begin = at + std::string_view(kCrop).size();
     const std::size_t end = std::min(out.command.find(' ', begin), out.command.size());
-    out.place = parse_crop("--crop", out.command.substr(begin, end - begin));
     out.crop = out.command.substr(at, end - at);
+    out.place =
+        of_note(file, [&] { return parse_crop("--crop", out.command.substr(begin, end - begin)); });
     out.command.erase(at, end - at);
-    if (out.place.width == out.layout().width && out.place.height == out.layout().height)
-        return out;
+    if (out.place.width == out.layout.width && out.place.height == out.layout.height) return out;
     throw Error(fmt::format("{}: has {}x{} pixels, and its note is{}", file.string(),
-                            out.layout().width, out.layout().height, out.crop));
+                            out.layout.width, out.layout.height, out.crop));
 }
 
 bool is_alike(const ImageChannel& a, const ImageChannel& b) {
@@ -66,11 +79,11 @@ void require_one_picture(const std::vector<Tile>& tiles) {
     const Tile& first = tiles.front();
     for (const Tile& tile : tiles) {
         const std::string both = tile.file.string() + " and " + first.file.string() + ": ";
-        if (tile.command != first.command) {
-            throw Error(fmt::format("{}are of other pictures: '{}' and '{}'", both, tile.command,
-                                    first.command));
+        if (tile.command != first.command || tile.time != first.time) {
+            throw Error(fmt::format("{}are of other pictures: '{}' at {} and '{}' at {}", both,
+                                    tile.command, tile.time, first.command, first.time));
         }
-        if (!std::ranges::equal(tile.layout().channels, first.layout().channels, is_alike)) {
+        if (!std::ranges::equal(tile.layout.channels, first.layout.channels, is_alike)) {
             throw Error(both + "have other channels");
         }
     }
@@ -111,16 +124,18 @@ std::vector<TileRow> rows_of(std::vector<Tile> tiles) {
 }
 
 // Reads rows [begin, end) of the picture to `pixels`.
-void read_rows(const std::vector<TileRow>& rows, int begin, int end, std::size_t pixel_bytes,
+void read_rows(std::vector<TileRow>& rows, int begin, int end, std::size_t pixel_bytes,
                std::size_t stride, std::vector<unsigned char>& pixels) {
-    for (const TileRow& row : rows) {
+    for (TileRow& row : rows) {
         const PixelRect& first = row.front().place;
         const int from = std::max(begin, first.y), to = std::min(end, first.y + first.height);
         if (from >= to) continue;
-        for (const Tile& tile : row) {
+        for (Tile& tile : row) {
+            if (!tile.image) tile.image = open_image(tile.file);
             const std::size_t at = stride * static_cast<std::size_t>(from - begin) +
                                    pixel_bytes * static_cast<std::size_t>(tile.place.x);
             tile.image->read_rows(from - first.y, to - from, &pixels[at], stride);
+            if (to == first.y + first.height) tile.image.reset();
         }
     }
 }
@@ -131,26 +146,26 @@ void join_tiles(const fs::path& out, const std::vector<fs::path>& tiles,
                 const std::function<void(double)>& on_rows) {
     std::vector<Tile> opened;
     for (const fs::path& file : tiles) {
-        if (!are_of_lossless_format(out, file)) {
+        if (!share_lossless_format(out, file)) {
             throw Error(
                 fmt::format("{}: tiles of {} cannot be joined without loss; both must be "
                             ".exr, .png or .tif",
                             out.string(), file.string()));
         }
-        opened.push_back(open_tile(file));
+        opened.push_back(find_tile(file));
     }
     require_one_picture(opened);
-    const std::vector<TileRow> rows = rows_of(std::move(opened));
+    std::vector<TileRow> rows = rows_of(std::move(opened));
     const Tile& first = rows.front().front();
     const PixelRect& last = rows.back().back().place;
-    const auto [width, height] = noted_size(first.command);
+    const auto [width, height] = of_note(first.file, [&] { return noted_size(first.command); });
     if (last.x + last.width != width || last.y + last.height != height) {
         throw Error(
             fmt::format("{}: is the last tile and ends at {},{}; the picture has {}x{} pixels",
                         rows.back().back().file.string(), last.x + last.width, last.y + last.height,
                         width, height));
     }
-    const ImageLayout layout = layout_of_whole(out, first.layout(), width, height, first.crop);
+    const ImageLayout layout = layout_of_whole(out, first.layout, width, height, first.crop);
     const std::size_t pixel_bytes = layout.pixel_bytes();
     const std::size_t stride = pixel_bytes * static_cast<std::size_t>(layout.width);
     constexpr int kRows = 8 * kFileBlockRows;

@@ -378,14 +378,15 @@ TEST_F(Faults, OutputsThatCannotBeWritten) {
     EXPECT_TRUE(names_in(other).empty());
 }
 
-// Waits until the program handles the signal (proc_pid_status(5)) or has ended.
+// Waits until the program handles the signal, which it blocks for a thread that waits for it
+// (proc_pid_status(5)), or has ended.
 void wait_until_handled(pid_t child, int number) {
     for (siginfo_t ended = {}; ended.si_pid != child;) {
         const std::string status = text_of_file(fmt::format("/proc/{}/status", child));
-        const std::size_t at = status.find("SigCgt:");
+        const std::size_t at = status.find("SigBlk:");
         if (at != std::string::npos) {
-            const std::uint64_t caught = std::stoull(status.substr(at + 7), nullptr, 16);
-            if ((caught >> (number - 1) & 1) != 0) return;
+            const std::uint64_t blocked = std::stoull(status.substr(at + 7), nullptr, 16);
+            if ((blocked >> (number - 1) & 1) != 0) return;
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
         waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT);

@@ -89,6 +89,16 @@ TEST(ArrayTask, RefusesWhatIsNoShard) {
               "--shard auto: PARALLEL_SEQ is '-1', no whole number from 0 on");
     EXPECT_EQ(shard_in({{"OMPI_COMM_WORLD_RANK", "1"}}, "auto"),
               "--shard auto: the environment lacks OMPI_COMM_WORLD_SIZE");
+    Variables inner = kSlurm;  // GNU parallel in a task of Slurm
+    inner["PARALLEL_SEQ"] = "2";
+    EXPECT_EQ(shard_in(inner, "auto/4"),
+              "--shard auto: both SLURM_ARRAY_TASK_ID and PARALLEL_SEQ are set; name the shard as "
+              "I/N");
+    EXPECT_EQ(shard_in({{"PARALLEL_SEQ", ""}}, "auto/4"), shard_in({}, "auto/4"));
+    Variables beyond = kSlurm;
+    beyond["SLURM_ARRAY_TASK_ID"] = "11";
+    EXPECT_EQ(shard_in(beyond, "auto"),
+              "--shard auto: SLURM_ARRAY_TASK_ID is 11, which is none of 4 tasks from 3 on");
     Variables gaps = kSlurm;  // --array=3,6,7,10 has the step 1, or none
     gaps["SLURM_ARRAY_TASK_STEP"] = "3";
     EXPECT_EQ(shard_in(gaps, "auto"),

@@ -34,19 +34,19 @@ class StderrTo {
     int saved_;
 };
 
-void run_progress(int descriptor, ProgressKind kind) {
+void run_progress(int descriptor, ProgressKind kind, double line_s = 10.0) {
     const StderrTo redirected(descriptor);
-    Progress progress("rendering", 2, kind);
+    Progress progress("rendering", 2, kind, line_s);
     progress.advance();
     progress.erase();
     progress.advance();
 }
 
-std::string seen_on_terminal(ProgressKind kind) {
+std::string seen_on_terminal(ProgressKind kind, double line_s = 10.0) {
     int ours = -1;
     int theirs = -1;
     if (openpty(&ours, &theirs, nullptr, nullptr, nullptr) != 0) return "no terminal";
-    run_progress(theirs, kind);
+    run_progress(theirs, kind, line_s);
     close(theirs);  // so that reading ends
     std::string seen;
     std::array<char, 4096> text{};
@@ -78,7 +78,7 @@ TEST(Progress, NeverWiderThanTheTerminal) {
     }
 }
 
-TEST(Progress, NothingWhereThereIsNoTerminal) {
+TEST(Progress, NothingAtOnceOffATerminal) {
     const TemporaryFolder folder;
     const int file = open((folder / "err").c_str(), O_WRONLY | O_CREAT, 0600);
     run_progress(file, ProgressKind::automatic);
@@ -124,13 +124,15 @@ TEST(Progress, WritesLinesWhileAStepLasts) {
 }
 
 TEST(Progress, PlainLinesAlsoOnATerminal) {
-    const std::string seen = seen_on_terminal(ProgressKind::plain);
+    const std::string seen = seen_on_terminal(ProgressKind::plain, 0.0);
+    EXPECT_TRUE(contains(seen, "rendering 1/2 [")) << seen;
     EXPECT_EQ(seen.find('\x1b'), std::string::npos) << seen;
 }
 
 // The lines that Open Job Description and Tractor look for.
 TEST(Progress, FarmsReadTheirLinesOnStandardOutput) {
-    EXPECT_EQ(farm_line(ProgressKind::openjd, 0.41567), "openjd_progress: 41.6");
+    EXPECT_EQ(farm_line(ProgressKind::openjd, 0.41567), "openjd_progress: 41.5");
+    EXPECT_EQ(farm_line(ProgressKind::openjd, 0.9999), "openjd_progress: 99.9");
     EXPECT_EQ(farm_line(ProgressKind::alf, 0.41999), "ALF_PROGRESS 41%");
     EXPECT_EQ(farm_line(ProgressKind::plain, 0.5), "");
     testing::internal::CaptureStdout();

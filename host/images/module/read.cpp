@@ -151,8 +151,11 @@ class Reader : public ImageReader {
 std::unique_ptr<ImageReader> open_image(const std::filesystem::path& file) {
     const std::string where = file.string() + ": cannot read the image: ";
     const OIIO::ImageSpec wanted = as_stored();
-    OIIO::Filesystem::IOFile bytes(file.string(), OIIO::Filesystem::IOProxy::Read);
-    if (bytes.opened()) refuse_cut_png(bytes, where);
+    std::error_code error;
+    if (std::filesystem::is_regular_file(file, error)) {
+        OIIO::Filesystem::IOFile bytes(file.string(), OIIO::Filesystem::IOProxy::Read);
+        if (bytes.opened()) refuse_cut_png(bytes, where);
+    }
     auto input = OIIO::ImageInput::open(file.string(), &wanted);
     if (!input) throw Error(where + one_line(OIIO::geterror()));
     const bool is_webp = input->format_name() == std::string_view("webp");

@@ -10,14 +10,17 @@ set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "renderer of scenes with thousands to a hu
 set(CPACK_RESOURCE_FILE_LICENSE ${CMAKE_SOURCE_DIR}/LICENSE)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
-set(CPACK_COMPONENTS_ALL program development)
+set(packages development:libkilolux-dev)
+if(KILOLUX_PROGRAM)
+  list(APPEND packages program:kilolux)
+endif()
 if(TARGET kilolux_python)
-  list(APPEND CPACK_COMPONENTS_ALL python)
+  list(APPEND packages python:python3-kilolux)
 endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-# Its own library of images is no package's.
+# dpkg-shlibdeps finds the library of images in the build folder, not in a package.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR})
 
 set(opencl "pocl-opencl-icd | opencl-icd")
@@ -38,9 +41,17 @@ set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "The OpenCL half as a library for C 
  Light lists and deferred lighting over the G-buffer of another renderer.")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-kilolux)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3, python3-numpy, ${opencl}, ${opengl}")
+# The module is built for one version of Python.
+math(EXPR next_python "0${Python3_VERSION_MINOR} + 1")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next_python}), python3-numpy, ${opencl}, ${opengl}")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The Python module.
  Renders to numpy arrays and lights G-buffers that are numpy arrays.")
+foreach(package IN LISTS packages)
+  string(REPLACE ":" ";" words ${package})
+  list(POP_FRONT words component name)
+  list(APPEND CPACK_COMPONENTS_ALL ${component})
+  install(FILES host/install/package/copyright DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/${name} COMPONENT ${component})
+endforeach()
 include(CPack)
 
 if(NOT KILOLUX_PROGRAM)
@@ -49,12 +60,6 @@ endif()
 install(FILES host/install/package/kilolux.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications COMPONENT program)
 install(FILES host/install/package/kilolux.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps
   COMPONENT program)
-foreach(package kilolux:program libkilolux-dev:development python3-kilolux:python)
-  string(REPLACE ":" ";" words ${package})
-  list(GET words 0 name)
-  list(GET words 1 component)
-  install(FILES host/install/package/copyright DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/${name} COMPONENT ${component})
-endforeach()
 # Made by the program itself when it is installed, so that they name its options.
 install(CODE "set(kilolux \"$<TARGET_FILE:kilolux>\")
   set(folder \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}\")

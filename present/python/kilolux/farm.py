@@ -20,7 +20,8 @@ _kept: tuple[bytes, Renderer] | None = None
 def _renderer(scene: str | os.PathLike[str] | Scene, options: dict[str, Any]) -> Renderer:
     """The last task's renderer where scene and options are the same."""
     global _kept
-    key = pickle.dumps((scene, sorted(options.items())))
+    changed = os.stat(scene).st_mtime_ns if isinstance(scene, (str, os.PathLike)) and os.path.exists(scene) else 0
+    key = pickle.dumps((scene, changed, sorted(options.items())))
     if _kept is None or _kept[0] != key:
         _kept = None  # two might not fit into memory
         _kept = key, Renderer(scene, **options)

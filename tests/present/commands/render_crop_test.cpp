@@ -101,6 +101,7 @@ TEST(RenderCrop, OnlyTilesOfOnePictureAreJoined) {
     ASSERT_EQ(render(file("other.png"), {"--crop", "35,25,35,25", "--ambient", "1"}).code, 0);
     ASSERT_EQ(render(file("between.png"), {"--crop", "30,25,35,25"}).code, 0);
     ASSERT_EQ(render(file("whole.png"), {}).code, 0);
+    ASSERT_EQ(render(file("f.#.png"), {"--crop", "35,25,35,25", "--frames", "1"}).code, 0);
     const struct {
         std::vector<const char*> tiles;
         const char* line;
