@@ -42,7 +42,10 @@ set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "The OpenCL half as a library for C 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-kilolux)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 # The module is built for one version of Python.
-math(EXPR next_python "0${Python3_VERSION_MINOR} + 1")
+set(next_python)
+if(TARGET kilolux_python)
+  math(EXPR next_python "${Python3_VERSION_MINOR} + 1")
+endif()
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next_python}), python3-numpy, ${opencl}, ${opengl}")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The Python module.
  Renders to numpy arrays and lights G-buffers that are numpy arrays.")

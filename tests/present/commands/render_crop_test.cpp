@@ -112,6 +112,7 @@ TEST(RenderCrop, OnlyTilesOfOnePictureAreJoined) {
         {{"t.0.png", "t.1.png"}, "ends at 70,25; the picture has 70x50 pixels"},
         {{"t.1.png", "t.2.png", "t.3.png"}, "the tiles before it end at 0,0"},
         {{"t.0.png", "t.0.png"}, "the tiles before it end at 35,0"},
+        {{"t.0.png", "t.1.png", "t.2.png", "f.1.png"}, "are of other pictures"},
         {{"whole.png"}, "has no note of a --crop"},
         {{"t.9.png"}, "t.9.png"}};
     for (const auto& c : cases) {
