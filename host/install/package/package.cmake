@@ -47,6 +47,9 @@ if(TARGET kilolux_python)
   math(EXPR next_python "${Python3_VERSION_MINOR} + 1")
 endif()
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next_python}), python3-numpy, ${opencl}, ${opengl}")
+# Python writes compiled modules beside these, which dpkg does not know.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${CMAKE_SOURCE_DIR}/host/install/package/python/postinst
+  ${CMAKE_SOURCE_DIR}/host/install/package/python/prerm)
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The Python module.
  Renders to numpy arrays and lights G-buffers that are numpy arrays.")
 foreach(package IN LISTS packages)
