@@ -33,7 +33,7 @@ void bench_culling(BenchOptions& options) {
     std::vector<CullingMeasurement> measured;
     std::uint64_t foreign = 0;
     {
-        Progress progress("culling", counts.size(), !options.shared.quiet);
+        Progress progress("culling", counts.size(), options.shared.shown_progress());
         for (const std::uint64_t count : counts) {
             check_interrupt();
             measured.push_back(measure_culling(bench.scene, bench.settings, bench.camera,
@@ -62,7 +62,7 @@ void bench_shading(BenchOptions& options) {
         static_cast<std::size_t>((bench.runs + 1) * shading_variants(bench.settings));
     std::vector<ShadingMeasurement> measured;
     {
-        Progress progress("shading", total, !options.shared.quiet);
+        Progress progress("shading", total, options.shared.shown_progress());
         // Measures the limits now: other work on the machine then slows limits and kernels alike.
         const DeviceLimits limits =
             measure_device_limits(Gpu(choose_device(bench.settings.device)));
@@ -83,7 +83,7 @@ void bench_visibility(BenchOptions& options) {
     std::vector<VisibilityMeasurement> measured;
     {
         Progress progress("visibility", static_cast<std::size_t>(visibility_runs(bench.runs)),
-                          !options.shared.quiet);
+                          options.shared.shown_progress());
         measured = measure_visibility(lighting, limits, bench.runs, [&] {
             check_interrupt();
             progress.advance();

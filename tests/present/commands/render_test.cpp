@@ -332,7 +332,9 @@ Frame sky_of(float light) {
 
 TEST(Render, SaysFirstWhatItRenders) {
     const TemporaryFolder folder;
-    const ChildResult result = run_kilolux(small_render(folder / "a.png", {"--samples", "2"}));
+    const std::vector<std::string> words = small_render(folder / "a.png", {"--samples", "2"});
+    ASSERT_EQ(run_kilolux(words).code, 0) << "builds the kernels, of which a line tells";
+    const ChildResult result = run_kilolux(words);
     const std::size_t device = result.err.find("device  "), rig = result.err.find("\nrig  ");
     const std::size_t picture =
         result.err.find("\npicture 48x32, deferred, grid 16x9x4, 2 samples\n");
