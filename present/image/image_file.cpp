@@ -312,14 +312,15 @@ ImageLayout layout_of_whole(const std::filesystem::path& file, const ImageLayout
         add_display(out, file, options);
     }
     out.attributes.emplace_back("Software", "kilolux " + version());
-    for (const auto& [name, value] : part.attributes) {
-        ImageAttribute kept = value;
+    for (const auto& attribute : part.attributes) {
+        ImageAttribute kept = attribute.second;
         if (auto* text = std::get_if<std::string>(&kept)) {
             const std::size_t at = text->find(without);
             if (!without.empty() && at != std::string::npos) text->erase(at, without.size());
         }
-        std::erase_if(out.attributes, [&](const auto& known) { return known.first == name; });
-        out.attributes.emplace_back(name, std::move(kept));
+        std::erase_if(out.attributes,
+                      [&](const auto& known) { return known.first == attribute.first; });
+        out.attributes.emplace_back(attribute.first, std::move(kept));
     }
     return out;
 }

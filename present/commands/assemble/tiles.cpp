@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/image/tiles.h"
+#include "present/commands/assemble/tiles.h"
 
 #include <fmt/format.h>
 

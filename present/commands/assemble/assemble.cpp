@@ -5,8 +5,8 @@
 #include "host/base/system/interrupt.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/progress.h"
+#include "present/commands/assemble/tiles.h"
 #include "present/image/image_file.h"
-#include "present/image/tiles.h"
 #include "present/program.h"
 
 namespace kilolux {
