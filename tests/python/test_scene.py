@@ -103,6 +103,7 @@ def test_bad_meshes_are_refused_in_one_line(floor, mesh, words):
     ({"kind": "area"}, "kind 'area' is none of point, spot, directional"),
     ({"kind": "spot", "direction": (0, 0, 0)}, "direction of light 0 is zero or not finite"),
     ({"kind": "spot", "inner_cone": 1.0, "outer_cone": 0.5}, "light 0: inner cone 1, outer cone 0.5: must be 0 <= inner < outer <= pi / 2"),
+    ({"kind": "spot", "inner_cone": -0.5, "outer_cone": 0.5}, "light 0: inner cone -0.5, outer cone 0.5: must be 0 <= inner < outer <= pi / 2"),
     ({"kind": "spot", "outer_cone": 4.0}, "light 0: inner cone 0, outer cone 4: must be 0 <= inner < outer <= pi / 2"),
 ])
 def test_bad_lights_are_refused_in_one_line(lights, words):

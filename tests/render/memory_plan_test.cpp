@@ -80,6 +80,14 @@ TEST(MemoryPlan, CountsWhatAutomaticGeometryAndTheDifferenceTake) {
     settings.lights.count = 100'100;
     EXPECT_GT(difference.bytes, view.bytes);
     EXPECT_EQ(more.bytes - difference.bytes, 2 * (plan(scene, settings).bytes - view.bytes));
+    const auto wider = [&](ViewKind shown, int width) {
+        settings.want.view = shown;
+        settings.width = width;
+        return plan(scene, settings).bytes;
+    };
+    settings.lights.count = 100;
+    EXPECT_GT(wider(ViewKind::difference, 4096) - wider(ViewKind::difference, 64),
+              wider(ViewKind::albedo, 4096) - wider(ViewKind::albedo, 64));
 }
 
 // Each takes its part; messages say what is divided.

@@ -185,6 +185,12 @@ TEST(Environment, FilesOfIntegersAreEncodedAndPrimariesAreKept) {
     EXPECT_NEAR(c.x, 0.5029, 1e-4);
     EXPECT_EQ(c.y, 0.0f);
     EXPECT_EQ(c.z, 1.0f);
+    ImageLayout deep{
+        2, 1, {{"R", SampleType::uint16}, {"G", SampleType::uint16}, {"B", SampleType::uint16}}};
+    const std::vector<std::uint16_t> grey(6, 32896);
+    write_file(folder.path() / "deep.png",
+               encode_pixels("deep", "png", deep, bytes_of(grey), 3 * sizeof(std::uint16_t)));
+    EXPECT_NEAR(read_environment(folder.path() / "deep.png").rows.at(0).y, 0.2159, 1e-4);
     // ACES 2065-1: its white stays white, and its middle green is brighter in Rec. 709.
     ImageLayout layout{
         2, 1, {{"R", SampleType::float32}, {"G", SampleType::float32}, {"B", SampleType::float32}}};
