@@ -144,6 +144,29 @@ TEST_F(Timer, LeavesOutTheHostsOwnRows) {
     EXPECT_LE(timer_.enqueue_ms(), elapsed - 200.0 + kSlackMs);
 }
 
+// The host works while the device does, as where OpenGL draws: the time counts once.
+TEST_F(Timer, CountsOnceWhatTheHostDidBesideTheDevice) {
+    constexpr std::size_t kLarge = std::size_t{1} << 24;
+    values_.reserve(kLarge);
+    run_after(0.0);
+    const Clock::time_point start = Clock::now();
+    timer_.take();
+    for (int i = 0; i < 8; ++i) {
+        cl::Event event;
+        gpu_.queue.enqueueFillBuffer(values_.get().buffer(), cl_uint{0}, 0,
+                                     kLarge * sizeof(cl_uint), nullptr, &event);
+        timer_.record("fill", event);
+    }
+    gpu_.queue.finish();
+    timer_.record_host("host", ms_since(start));
+    const std::vector<StageTimer::Time> times = timer_.take();
+    const double elapsed = ms_since(start);
+    ASSERT_EQ(times.size(), 2u);
+    EXPECT_EQ(times[1].stage, "fill");
+    const double idle = timer_.enqueue_ms() + timer_.launch_ms();
+    EXPECT_LT(times[0].ms + times[1].ms + idle, elapsed + 0.5 * times[1].ms);
+}
+
 // A program that is built, and what a driver does before a kernel's first launch, is no idle time.
 TEST_F(Timer, LeavesOutWhatIsBuilt) {
     constexpr double kSlackMs = 50.0;  // between an enqueue and record()

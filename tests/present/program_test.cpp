@@ -191,6 +191,7 @@ TEST(Program, HelpOfACommandHasOptionsDefaultsMeaningsAndExamples) {
                              "Examples:\n  kilolux render -o atrium.png"}) {
         EXPECT_TRUE(contains(help.out, text)) << text;
     }
+    EXPECT_TRUE(contains(help.out, "kilolux render --help-all lists every option."));
     for (const char* text : {"--range-budget", "--math", "--ocio-view", "--max-error"}) {
         EXPECT_FALSE(contains(help.out, text)) << text;
     }

@@ -66,7 +66,7 @@ TEST(Paths, RowsOfStagesAreWithinTheFrame) {
     constexpr int kFrames = 30;
     const Scene scene = make_generated_scene("grid");
     for (const RendererKind kind : {RendererKind::forward, RendererKind::deferred}) {
-        RenderSettings settings = small_settings(16, 9, 30000);
+        RenderSettings settings = small_settings(4, 4, 300000);
         settings.renderer = kind;
         Renderer renderer(scene, settings);
         bool fits = false;

@@ -40,6 +40,32 @@ class Overlay : public testing::Test {
     }
 };
 
+// Whether nothing of the help is cut or off the display, of that size with a panel of `panel`.
+bool help_fits(float width, float height, float panel) {
+    ImGui::GetIO().DisplaySize = {width, height};
+    bool fits = false;
+    for (int frame = 0; frame < 3; ++frame) {  // Dear ImGui knows the contents of the frame before
+        ImGui::NewFrame();
+        describe_help({panel, 0.0f, width, height}, 1.0f);
+        ImGui::Begin("help");
+        const ImVec2 from = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+        fits = from.x >= 0.0f && from.y >= 0.0f && from.x + size.x <= width &&
+               from.y + size.y <= height && ImGui::GetScrollMaxX() == 0.0f &&
+               ImGui::GetScrollMaxY() == 0.0f;
+        ImGui::End();
+        ImGui::EndFrame();
+    }
+    return fits;
+}
+
+TEST_F(Overlay, HelpFitsIntoSmallWindows) {
+    for (const auto& [width, height] :
+         {std::array{1600.0f, 900.0f}, {640.0f, 400.0f}, {640.0f, 200.0f}, {300.0f, 400.0f}}) {
+        EXPECT_TRUE(help_fits(width, height, 0.0f)) << width << "x" << height;
+        EXPECT_TRUE(help_fits(width, height, 200.0f)) << width << "x" << height << ", panel";
+    }
+}
+
 // No other frame follows where nothing moves.
 TEST_F(Overlay, HoldsItsTextInTheFirstFrameThatHasIt) {
     const std::vector<std::string> few = {"a"}, more = {"a line that is longer", "another one"};

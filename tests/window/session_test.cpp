@@ -263,6 +263,46 @@ TEST(Window, WhatLiesOverThePictureFitsIntoASmallWindow) {
     EXPECT_GE(colours.size(), 8u);
 }
 
+// Relative luminance of a colour of sRGB, by WCAG 2.1.
+double luminance(const std::array<float, 3>& colour) {
+    constexpr double kWeights[] = {0.2126, 0.7152, 0.0722};
+    double sum = 0.0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const double v = colour[c];
+        sum += kWeights[c] * (v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
+    }
+    return sum;
+}
+
+// At 0 the grip of the exposure lies under the digits, which are white.
+TEST(Window, DigitsAreReadableOverAGrip) {
+    constexpr double kReadable = 4.5;  // contrast of small text, WCAG 2.1
+    const TemporaryFolder folder;
+    Script script(folder);
+    script.shot("middle").line("type exposure -6").line("away").shot("left");
+    play(script);
+    const FloatImage middle = read_image(folder / "middle.png");
+    const FloatImage left = read_image(folder / "left.png");
+    const auto colour = [](const FloatImage& image, int x, int y) {
+        const auto at = image.channels.size() * static_cast<std::size_t>(y * image.width + x);
+        return std::array{image.values[at], image.values[at + 1], image.values[at + 2]};
+    };
+    const auto is_amber = [](const std::array<float, 3>& c) {
+        return c[0] > 1.2f * c[1] && c[1] > 1.2f * c[2];
+    };
+    std::map<std::array<float, 3>, int> moved;
+    for (int y = 0; y < middle.height; ++y) {
+        for (int x = 0; x < kPanel; ++x) {
+            const std::array<float, 3> seen = colour(middle, x, y);
+            if (is_amber(seen) && !is_amber(colour(left, x, y))) ++moved[seen];
+        }
+    }
+    const auto grip = std::ranges::max_element(moved, {}, [](const auto& m) { return m.second; });
+    ASSERT_NE(grip, moved.end());
+    EXPECT_GT(grip->second, 50) << "pixels of a grip";
+    EXPECT_GT(1.05 / (luminance(grip->first) + 0.05), kReadable);
+}
+
 TEST(Window, SaysWhichRendererHasNoClusters) {
     const TemporaryFolder folder;
     Script script(folder);

@@ -245,7 +245,7 @@ TEST(Bench, PrintsTheTableOfItsCsv) {
     const ChildResult both = run_kilolux({"bench", "--table", csv + "," + csv, "--quiet"});
     ASSERT_EQ(both.code, 0) << both.err;
     EXPECT_EQ(both.out, printed.out + "\n" + printed.out);
-    EXPECT_FALSE(contains(both.out, "make_tables")) << "tables of users are not the project's";
+    EXPECT_FALSE(contains(both.out, "Written by")) << "tables of users are not the project's";
     fs::remove(folder / "bench.context.json");
     EXPECT_EQ(run_kilolux({"bench", "--table", csv}).code, 1) << "no figure without its command";
     EXPECT_EQ(run_kilolux({"bench", "--table", "no.csv"}).code, 1);

@@ -75,6 +75,30 @@ TEST(Info, KeepsNoLimitsThatItCouldNotJudge) {
     EXPECT_FALSE(std::filesystem::exists(folder / "kilolux"));
 }
 
+// A kernel that does 64 times the work that it is counted for.
+TEST(Info, KeepsNoLimitsThatDiffer) {
+    const TemporaryFolder folder;
+    namespace fs = std::filesystem;
+    fs::copy(fs::path(source_root()) / "kernels", folder / "kernels", fs::copy_options::recursive);
+    const fs::path file = folder / "kernels/limits/measure_limits.cl";
+    std::string text = text_of_file(file);
+    const std::string count = "i < iterations";
+    const std::size_t at = text.find(count, text.find("kernel void fma_rate("));
+    ASSERT_NE(at, std::string::npos);
+    write_text(file, text.replace(at, count.size(), "i < 64 * iterations"));
+    const EnvironmentVariable sources("KILOLUX_SOURCE_DIR", folder.path().string());
+    const EnvironmentVariable cache("XDG_CACHE_HOME", (folder / "cache").string());
+    const EnvironmentVariable own("KILOLUX_DEVICE_KIND", std::nullopt);
+    const ChildResult result = run_kilolux({"info", "--check-limits", "--json"});
+    EXPECT_EQ(result.code, 3) << result.err;
+    EXPECT_TRUE(contains(result.err, "limits differ from the independent ones by more"))
+        << result.err;
+    const Json row = Json::parse(result.out).at(0);
+    EXPECT_EQ(row.at("limit"), "fma_flops");
+    EXPECT_EQ(row.at("result"), "differs");
+    EXPECT_FALSE(fs::exists(folder / "cache/kilolux"));
+}
+
 TEST(Info, MeasuresLimitsAgainWhenAsked) {
     const TemporaryFolder folder;
     const EnvironmentVariable cache("XDG_CACHE_HOME", folder.path().string());

@@ -44,6 +44,25 @@ TEST(Render, ABackgroundHasTheColourThatIsGiven) {
     }
 }
 
+// A crop has the numbers of the whole picture, which has more clusters than a float counts.
+TEST(Render, SaysWhichLayerIsUintThoughNobodyAskedForIt) {
+    const TemporaryFolder folder;
+    const fs::path file = folder / "a.exr";
+    const auto says_so = [&](const char* slices, const char* ids) {
+        const ChildResult result = run_kilolux(small_render(
+            file, {"--resolution", "3072,3072", "--crop", "1536,1536,16,16", "--grid",
+                   std::string("192,192,") + slices, "--aov", "cluster", "--aov-ids", ids}));
+        EXPECT_EQ(result.code, 0) << result.err;
+        return contains(result.err,
+                        "a.exr: layer cluster is UINT: a float does not hold its largest");
+    };
+    EXPECT_TRUE(says_so("64", "float"));
+    EXPECT_EQ(read_image(file).ids.size(), 1u);
+    EXPECT_FALSE(says_so("64", "uint"));
+    EXPECT_FALSE(says_so("4", "float"));
+    EXPECT_EQ(read_image(file).ids.size(), 0u);
+}
+
 TEST(Render, WritesAnExrThatSaysHowItWasMade) {
     const TemporaryFolder folder;
     const fs::path file = folder / "a.exr";
