@@ -59,7 +59,8 @@ OIIO::ImageSpec as_stored() {
 }
 
 // Throws Error, begun by `where`, for a PNG file that lacks its last chunk: libpng would print
-// lines of its own. Chunks are length, name, data and checksum (PNG specification, 5.3).
+// lines of its own. Images of scenes are checked by the loader. Chunks are length, name, data and
+// checksum (PNG specification, 5.3).
 void refuse_cut_png(OIIO::Filesystem::IOProxy& file, const std::string& where) {
     constexpr std::size_t kSignature = 8, kBesideData = 12;  // [byte]
     unsigned char head[8];
@@ -177,7 +178,6 @@ std::unique_ptr<ImageReader> open_encoded(const std::string& format,
     }
     auto memory = std::make_unique<OIIO::Filesystem::IOMemReader>(
         OIIO::cspan<unsigned char>(bytes.data(), static_cast<std::ptrdiff_t>(bytes.size())));
-    refuse_cut_png(*memory, "");
     OIIO::ImageSpec spec;
     if (!input->set_ioproxy(memory.get()) || !input->open("image." + format, spec, as_stored())) {
         throw Error(one_line(input->geterror()));
