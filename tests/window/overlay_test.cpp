@@ -40,7 +40,7 @@ class Overlay : public testing::Test {
     }
 };
 
-// Whether nothing of the help is cut or off the display, of that size with a panel of `panel`.
+// Whether a display of that size shows the whole help, beside a panel of `panel` pixels.
 bool help_fits(float width, float height, float panel) {
     ImGui::GetIO().DisplaySize = {width, height};
     bool fits = false;
