@@ -87,6 +87,7 @@ Program::Program() : app_(kMeaning, "kilolux") {
     add_info_command(*this);
     add_export_command(*this);
     add_assemble_command(*this);
+    add_merge_command(*this);
 }
 
 CLI::App& Program::add_command(const std::string& name, const std::string& meaning,

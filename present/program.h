@@ -81,5 +81,6 @@ void add_certify_command(Program& program);
 void add_info_command(Program& program);
 void add_export_command(Program& program);
 void add_assemble_command(Program& program);
+void add_merge_command(Program& program);
 
 }  // namespace kilolux

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "host/base/error.h"
+#include "host/base/log.h"
 #include "host/base/text.h"
+#include "present/cli/option_values.h"
 
 namespace kilolux {
 namespace {
@@ -58,10 +60,18 @@ Shard checked_shard(const std::string& option, const ArrayVariables& row, std::i
 
 }  // namespace
 
-std::string schedulers() {
+std::string shard_meaning(const std::string& parts) {
     std::vector<std::string> names;
     for (const ArrayVariables& row : kArrayVariables) names.emplace_back(row.scheduler);
-    return joined(names);
+    return fmt::format(
+        "Every N-th {} from the I-th on, counted from 0. auto: I and N by the variables of {}; "
+        "auto/N: I alone",
+        parts, joined(names));
+}
+
+void note_shard(const Shard& shard) {
+    if (!shard.variable.empty())
+        note(fmt::format("shard {} by {}", text_of(shard), shard.variable));
 }
 
 Shard shard_of_task(const std::string& option) {

@@ -29,8 +29,11 @@ inline constexpr auto kArrayVariables = std::to_array<ArrayVariables>({
     {"GNU parallel", "PARALLEL_SEQ", nullptr, nullptr, nullptr, 1},
 });
 
-/// "Slurm, Kubernetes, ..."
-std::string schedulers();
+/// What --shard means where it takes every N-th of `parts`, such as "frame or tile".
+std::string shard_meaning(const std::string& parts);
+
+/// Says which variable told the shard, where one did.
+void note_shard(const Shard& shard);
 
 /// This task's shard of as many as the scheduler has tasks. Throws UsageError that starts with
 /// `option` where no index or several are set, or the scheduler does not tell the number.

@@ -94,11 +94,7 @@ void visit_sequence(const SettingVisitor& f, OutputOptions& o) {
                o.frames, parse_frames)
         .number({"--fps", "F", "", "Frames a second", one_file ? kPicture : kNeither},
                 o.frames_per_second, {0.0, 1e6, true})
-        .value({"--shard", "I/N", "0/1",
-                "Every N-th frame or tile from the I-th on, counted from 0. auto: I and N by the "
-                "variables of " +
-                    schedulers() + "; auto/N: I alone"},
-               o.shard, parse_shard)
+        .value({"--shard", "I/N", "0/1", shard_meaning("frame or tile")}, o.shard, parse_shard)
         .value({"--crop", "X,Y,W,H", "",
                 "Only these pixels of the picture, with the same bits; an EXR file has them as its "
                 "data window. Takes the time of whole rows",

@@ -51,6 +51,16 @@ struct Shard {
     bool operator==(const Shard&) const = default;
 };
 
+/// Every `shard.count`-th of `items`, from that at `shard.index` on.
+template <typename T>
+std::vector<T> part_of(const std::vector<T>& items, const Shard& shard) {
+    std::vector<T> out;
+    const auto step = static_cast<std::size_t>(shard.count);
+    for (auto i = static_cast<std::size_t>(shard.index); i < items.size(); i += step)
+        out.push_back(items[i]);
+    return out;
+}
+
 /// Every `shard.count`-th of `frames`, from that at `shard.index` on. Counted, not stored.
 class ShardFrames {
  public:

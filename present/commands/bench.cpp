@@ -6,6 +6,8 @@
 #include "host/base/error.h"
 #include "host/base/system/atomic_write.h"
 #include "host/render/plan/settings_check.h"
+#include "present/cli/array_task.h"
+#include "present/cli/option_builder.h"
 #include "present/cli/scene_choice.h"
 #include "present/cli/stats_json.h"
 #include "present/program.h"
@@ -23,6 +25,8 @@ void check(const BenchOptions& o) {
     if (modes > 1) throw UsageError("--quick, --tune and --job exclude each other");
     if (o.budget.max_error && o.tune)
         throw UsageError("--max-error: goes with sweeps, not with --tune");
+    refuse_if(o.shard.count > 1 && (o.tune || !o.jobs.empty() || !o.tables.empty()),
+              "--shard: goes with sweeps, not with --tune, --job or --table");
     if (o.resume && !o.jobs.empty()) throw UsageError("--resume: goes with sweeps, not with --job");
     if (o.resume && o.output.empty()) throw UsageError("--resume: needs the folder of -o");
 }
@@ -39,6 +43,7 @@ void run_bench(BenchOptions& options) {
     for (const SweepPoint& point : bench_points(options)) {
         check_settings(settings_at(options.shared.settings, point));
     }
+    note_shard(options.shard);
     make_output_folder(options.output);
     if (options.tune) return run_tuning(options);
     if (!options.jobs.empty()) return run_jobs(options);
@@ -51,6 +56,7 @@ constexpr const char* kBenchExamples =
     "  kilolux bench --lights 500:5000:500 --renderer deferred,deferred-all -o results\n"
     "  kilolux bench --lights 256:8192:*2 --resolution '1280,720;1920,1080' --frames 30\n"
     "  kilolux bench --grid '4,4,1;16,9,4;64,36,64' --lanes 1,8 -o results --resume\n"
+    "  kilolux bench --lights 1000:64000:1000 -o part.3 --shard 3/8\n"
     "  kilolux bench --job png,exr,y4m --lights 8192 -o results\n"
     "  kilolux bench --tune\n"
     "  kilolux bench --table results/bench.csv";

@@ -37,6 +37,7 @@ struct BenchOptions {
     std::filesystem::path output;     // folder; empty: the table on standard output only
     std::vector<std::string> jobs;    // --job: types of files; empty: frames are measured
     std::vector<std::string> tables;  // --table: CSV files to print instead of measuring
+    Shard shard;                      // of the sweep's points
     bool resume = false;
     bool json = false;
     bool quick = false;
@@ -69,8 +70,14 @@ nlohmann::ordered_json bench_context(const SharedOptions& shared, const BenchFra
                                      const Scene& scene, const Camera& camera,
                                      const DeviceInfo& device);
 
-/// Throws Error unless the context file was written with the same context.
-void require_same_context(const std::filesystem::path& file, const nlohmann::ordered_json& context);
+/// Throws Error unless the context file was written by the same shard with the same context.
+void require_same_context(const std::filesystem::path& file,
+                          const nlohmann::ordered_json& document);
+
+/// A measurement's document: the command, its context, and the names of all points of the run. That
+/// of a shard also has "shard", the text I/N.
+nlohmann::ordered_json result_document(const nlohmann::ordered_json& context,
+                                       const std::vector<std::string>& points, const Shard& shard);
 
 /// The context of a CSV's measurements: X.context.json beside X.csv.
 std::filesystem::path context_file(std::filesystem::path csv);
@@ -95,6 +102,18 @@ void write_table(const std::filesystem::path& csv, const Table& table,
 /// The tables of CSV files that a bench wrote, in Markdown, each with the command and the context
 /// that it was measured with. Throws Error for a file that is none or that lacks its context.
 std::string results_text(const std::vector<std::string>& csv_files);
+
+/// Where the results of a sweep go.
+struct SweepOutput {
+    std::filesystem::path folder;  // empty: standard output only
+    bool json = false;
+    bool plots = false;
+    bool every_stage = false;  // of many points, too
+};
+
+/// Prints rows, and writes bench.json and plots. `document`: all but the rows.
+void put_sweep(const SweepOutput& output, nlohmann::ordered_json document,
+               const std::vector<BenchRow>& rows);
 
 /// A scene and its settings for one point: the first value of each axis. `usual_runs`: without
 /// --frames.

@@ -56,12 +56,23 @@ Json bench_context(const SharedOptions& shared, const BenchFrames& frames, const
     return out;
 }
 
-void require_same_context(const std::filesystem::path& file, const Json& context) {
+Json result_document(const Json& context, const std::vector<std::string>& points,
+                     const Shard& shard) {
+    Json out = {{"command", command_line()}, {"context", context}, {"points", points}};
+    if (shard.count > 1) out["shard"] = text_of(shard);
+    return out;
+}
+
+void require_same_context(const std::filesystem::path& file, const Json& document) {
     std::ifstream in(file);
     const Json found = Json::parse(in, nullptr, false);
     if (!in || !found.contains("context"))
         throw Error(fmt::format("{}: missing or damaged; --resume needs it", file.string()));
-    const std::string difference = first_difference(found["context"], context);
+    std::string difference = first_difference(found["context"], document["context"]);
+    if (difference.empty()) {
+        const auto shard = [](const Json& of) { return Json{{"shard", of.value("shard", "0/1")}}; };
+        difference = first_difference(shard(found), shard(document));
+    }
     if (!difference.empty()) {
         throw Error(
             fmt::format("{}: measured under other conditions: {}; choose another folder "

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "host/base/text.h"
+#include "present/cli/array_task.h"
 #include "present/cli/names.h"
 #include "present/cli/option_builder.h"
 #include "present/commands/bench.h"
@@ -131,6 +132,8 @@ void add_bench_options(CLI::App& command, BenchOptions& options) {
         .flag("--resume", options.resume,
               "Go on with the CSV in the folder, which the same program, device, tuning, scene and "
               "settings must have written")
+        .value({"--shard", "I/N", "0/1", shard_meaning("point of the sweep")}, options.shard,
+               parse_shard)
         .flag("--json", options.json, "JSON instead of a table on standard output");
     add_options(command, options.budget);
 }

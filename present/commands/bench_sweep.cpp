@@ -112,25 +112,15 @@ void sort_rows(Sweep& sweep) {
 }
 
 // Every stage of a few points; of many, only frames, shading and rows that beat their limit.
-std::vector<BenchRow> shown_rows(const BenchOptions& options, const Sweep& sweep) {
-    constexpr std::size_t kFewPoints = 4;
-    std::vector<BenchRow> rows = sweep.rows;
-    if (options.shared.verbose || sweep.points.size() <= kFewPoints) return rows;
+std::vector<BenchRow> shown_rows(std::vector<BenchRow> rows, bool every_stage) {
+    constexpr std::ptrdiff_t kFewPoints = 4;
+    const auto points = std::ranges::count(rows, kFrameStage.name, &BenchRow::stage);
+    if (every_stage || points <= kFewPoints) return rows;
     std::erase_if(rows, [](const BenchRow& row) {
         return row.stage != kFrameStage.name && group_of(row.stage) != StageGroup::shading &&
                !row.beats_limit();
     });
     return rows;
-}
-
-void write_results(const BenchOptions& options, const Sweep& sweep, const Json& document,
-                   bool plots) {
-    const Json& context = document["context"];
-    write_json((options.output / "bench.json").string(), document);
-    const std::string subtitle =
-        fmt::format("{} on {}", options.shared.scene, context["device"]["name"].get<std::string>());
-    if (plots) write_plots(bench_plots(sweep.rows, subtitle), options.output);
-    note("wrote   " + options.output.string());
 }
 
 // A row that beats its limit shows that the limit or the model is wrong.
@@ -146,6 +136,21 @@ void require_limits_hold(const std::vector<BenchRow>& rows) {
 }
 
 }  // namespace
+
+void put_sweep(const SweepOutput& output, Json document, const std::vector<BenchRow>& rows) {
+    document["rows"] = table_json(bench_table(rows));
+    const std::vector<BenchRow> shown = shown_rows(rows, output.every_stage);
+    print_result(output.json, document,
+                 to_markdown(bench_summary(shown)) + "\n" + bench_legend(shown));
+    if (output.folder.empty()) return;
+    write_json((output.folder / "bench.json").string(), document);
+    const Json& context = document["context"];
+    const std::string subtitle =
+        fmt::format("{} on {}", context["scene"]["name"].get<std::string>(),
+                    context["device"]["name"].get<std::string>());
+    if (output.plots) write_plots(bench_plots(rows, subtitle), output.folder);
+    note("wrote   " + output.folder.string());
+}
 
 std::vector<SweepPoint> bench_points(const BenchOptions& options) {
     std::vector<SweepPoint> points;
@@ -203,17 +208,21 @@ void run_sweep(BenchOptions& asked) {
     const Camera camera = choose_camera(asked.shared, scene);
     const BenchOptions options = with_budget(asked, scene, camera);
     Sweep sweep;
-    sweep.points = bench_points(options);
+    const std::vector<SweepPoint> points = bench_points(options);
+    sweep.points = part_of(points, options.shard);
     const DeviceInfo device = describe(choose_device(options.shared.settings.device));
-    Json document = {
-        {"command", command_line()},
-        {"context", bench_context(options.shared, bench_frames(options), scene, camera, device)}};
+    std::vector<std::string> names;
+    std::ranges::transform(points, std::back_inserter(names), point_text);
+    Json document =
+        result_document(bench_context(options.shared, bench_frames(options), scene, camera, device),
+                        names, options.shard);
     std::optional<BenchLog> log;
-    const bool plots = !options.output.empty() && can_plot();
+    const SweepOutput output{options.output, options.json, !options.output.empty() && can_plot(),
+                             options.shared.verbose};
     if (!options.output.empty()) {
         const fs::path csv = options.output / "bench.csv";
         log.emplace(csv, options.resume);
-        if (!log->rows().empty()) require_same_context(context_file(csv), document["context"]);
+        if (!log->rows().empty()) require_same_context(context_file(csv), document);
     }
     const auto write_context = [&] {
         write_json(context_file(options.output / "bench.csv").string(), document);
@@ -223,11 +232,8 @@ void run_sweep(BenchOptions& asked) {
     sort_rows(sweep);
     document["limits"] = limits_json(run.limits());
     if (log) write_context();
-    document["rows"] = table_json(bench_table(sweep.rows));
-    const std::vector<BenchRow> shown = shown_rows(options, sweep);
-    print_result(options.json, document,
-                 to_markdown(bench_summary(shown)) + "\n" + bench_legend(shown));
-    if (!options.output.empty()) write_results(options, sweep, document, plots);
+    if (log && sweep.points.empty()) log->append({});  // a shard without points has no rows
+    put_sweep(output, document, sweep.rows);
     require_limits_hold(sweep.rows);
 }
 

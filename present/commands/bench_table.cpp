@@ -19,15 +19,17 @@ std::string context_text(const Json& document, const std::string& fields) {
         return value.is_string() ? value.get<std::string>() : value.dump();
     };
     const Json& context = document.at("context");
-    std::string size;
+    std::string size, commands;
+    for (const Json& part : document.value("parts", Json::array()))
+        commands += "    " + part.at("command").get<std::string>() + "\n";
     if (context.contains("resolution"))
         size = fmt::format(", resolution {}x{}", word("/context/resolution/0"),
                            word("/context/resolution/1"));
     if (context.contains("shading")) size += ", shading " + word("/context/shading");
     return fmt::format(
-        "    {}\n\nDevice {} (driver {}), commit {}, scene {}{}{}; {} frames after {}.\n"
+        "{}    {}\n\nDevice {} (driver {}), commit {}, scene {}{}{}; {} frames after {}.\n"
         "Tuning: {}.\n\n",
-        word("/command"), word("/context/device/name"), word("/context/device/driver"),
+        commands, word("/command"), word("/context/device/name"), word("/context/device/driver"),
         word("/context/program/commit"), word("/context/scene/name"), size, fields,
         word("/context/frames/measured"), word("/context/frames/warm_up"),
         tuning_text(context.at("tuning")));

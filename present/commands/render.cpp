@@ -8,6 +8,7 @@
 #include "host/base/log.h"
 #include "host/base/system/atomic_write.h"
 #include "host/render/whole_picture.h"
+#include "present/cli/array_task.h"
 #include "present/cli/frame_summary.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/option_values.h"
@@ -183,8 +184,7 @@ void run_render(RenderOptions& options) {
     const std::string inputs = inputs_comment(options);
     options.command += inputs;
     for (std::string& command : options.tile_commands) command += inputs;
-    if (!out.shard.variable.empty())
-        note(fmt::format("shard {} by {}", text_of(out.shard), out.shard.variable));
+    note_shard(out.shard);
     const PictureTasks tasks(options);
     if (tasks.size() == 0) {
         return note(fmt::format(

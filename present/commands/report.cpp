@@ -12,6 +12,7 @@
 #include "host/measure/report/error_sheets.h"
 #include "host/measure/report/run.h"
 #include "host/measure/report/tables.h"
+#include "present/cli/array_task.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/progress.h"
 #include "present/cli/scene_choice.h"
@@ -20,6 +21,7 @@
 #include "present/commands/devices/report_devices.h"
 #include "present/commands/error_budget_options.h"
 #include "present/commands/picture_tasks.h"
+#include "present/commands/report.h"
 #include "present/image/image_file.h"
 #include "present/program.h"
 
@@ -40,12 +42,14 @@ struct ReportOptions {
     bool check_default = false;
     bool mixed_devices = false;
     std::vector<std::string> devices;  // by index, where there are several
+    Shard shard;                       // of the settings
     BudgetOptions budget;
 };
 
 struct Report {
     nlohmann::ordered_json context;
-    std::string caption;  // scene, lights, sizes, device, for pictures
+    std::vector<std::string> points;  // names of all settings, also of other shards
+    std::string caption;              // see report_caption()
     std::vector<ReportRow> rows;
     std::vector<DeviceShare> shares;  // of several devices
     bool plots = false;               // are written
@@ -69,8 +73,18 @@ std::vector<ReportSetting> chosen_settings(const ReportOptions& options, const S
     return settings;
 }
 
+// The settings of the shard. Each shard has the default, with whose frames the others' are paired.
+std::vector<ReportSetting> part_of_settings(const std::vector<ReportSetting>& all,
+                                            const Shard& shard) {
+    std::vector<ReportSetting> out = part_of(all, shard);
+    if (shard.index > 0) out.insert(out.begin(), all.front());
+    return out;
+}
+
 void measure(const ReportOptions& options, const ReportView& view, ReportRun& run, Report& report) {
-    const std::vector<ReportSetting> settings = chosen_settings(options, view.scene);
+    const std::vector<ReportSetting> all = chosen_settings(options, view.scene);
+    std::ranges::transform(all, std::back_inserter(report.points), &ReportSetting::name);
+    const std::vector<ReportSetting> settings = part_of_settings(all, options.shard);
     Progress progress("measuring", ReportRun::steps(settings.size()),
                       options.shared.shown_progress());
     const auto advance = [&progress] { progress.advance(); };
@@ -89,23 +103,6 @@ void measure(const ReportOptions& options, const ReportView& view, ReportRun& ru
     run.on_progress([] {});
 }
 
-std::string caption_of(const SharedOptions& shared, const Scene& scene, const DeviceInfo& device,
-                       const ReportRun& run) {
-    const RenderSettings& s = shared.settings;
-    const auto [width, height] = run.error_size();
-    return fmt::format("{}, {} lights, {}x{} pixels, errors at {}x{}, {}", shared.scene,
-                       s.lights.count + scene.lights.size(), s.width, s.height, width, height,
-                       device.name);
-}
-
-// "gbuffer half" -> "gbuffer_half".
-std::string file_stem(std::string name) {
-    for (char& c : name) {
-        if (c == ' ' || c == ',' || c == '/') c = '_';
-    }
-    return name;
-}
-
 void write_canvas(const fs::path& file, Canvas canvas) {
     Frame frame;
     frame.width = canvas.width;
@@ -117,8 +114,8 @@ void write_canvas(const fs::path& file, Canvas canvas) {
 void write_errors(const fs::path& folder, const Report& report, const ReportRow& row,
                   ReportRun& run) {
     const auto references = run.references().all(run.at_error_size(row));
-    const std::string file = file_stem(row.setting.name) + ".png";
-    write_canvas(folder / "errors" / file, error_map_sheet(row, references, report.caption));
+    write_canvas(error_map_file(folder, row.setting.name),
+                 error_map_sheet(row, references, report.caption));
 }
 
 // The summary with its notes: report.md.
@@ -128,8 +125,10 @@ std::string report_text(const Report& report) {
 }
 
 // The document of --json and report.json.
-Json report_json(const Report& report) {
-    return {{"context", report.context}, {"rows", table_json(report_table(report.rows))}};
+Json report_json(const Report& report, const Shard& shard) {
+    Json out = result_document(report.context, report.points, shard);
+    out["rows"] = table_json(report_table(report.rows));
+    return out;
 }
 
 // Writes cut_offs.csv, and cut_offs.png: the treatments of lights that lack a range, side by side.
@@ -146,7 +145,7 @@ void write_report(const ReportOptions& options, const Report& report, ReportRun&
     const fs::path& folder = options.output;
     write_atomically(folder / "report.csv", to_csv(report_table(report.rows)));
     write_atomically(folder / "report.md", report_text(report));
-    write_json((folder / "report.json").string(), report_json(report));
+    write_json((folder / "report.json").string(), report_json(report, options.shard));
     write_cut_offs(folder, report, run);
     make_output_folder(folder / "errors");
     for (const ReportRow& row : report.rows) {
@@ -155,19 +154,6 @@ void write_report(const ReportOptions& options, const Report& report, ReportRun&
     }
     if (report.plots) write_plots(report_plots(report.rows, report.caption), folder);
     note("wrote   " + folder.string());
-}
-
-// Throws where another setting beats the default and --check-default is given, else warns.
-void check_default(const ReportOptions& options, const std::vector<ReportRow>& rows) {
-    const ReportRow* better = row_that_beats_default(rows);
-    if (better == nullptr) return;
-    const std::string text = fmt::format(
-        "another setting beats the default: {} takes {:.2f} of its time, its R2 RMSE is {:.3g} "
-        "for {:.3g}",
-        better->setting.name, better->speed.relative, better->surfaces.hdr.rmse,
-        rows.front().surfaces.hdr.rmse);
-    if (options.check_default) throw ComparisonFailed(text);
-    warn(text);
 }
 
 // The values of --quick, unless the command line gives others.
@@ -201,6 +187,10 @@ void take_devices(ReportOptions& options) {
     if (devices.size() > 1) options.devices = std::move(devices);
     refuse_if(options.mixed_devices && options.budget.max_error,
               "--max-error with --mixed-devices: a choice is kept for one kind of device");
+    if (options.shard.count == 1) return;
+    refuse_if(!options.devices.empty(), "--shard: a shard measures on one device");
+    refuse_if(options.budget.max_error.has_value(), "--shard: --max-error needs all settings");
+    refuse_if(options.check_default, "--shard: --check-default needs all settings; merge takes it");
 }
 
 void run_report(ReportOptions& options, const CLI::App& command) {
@@ -209,6 +199,7 @@ void run_report(ReportOptions& options, const CLI::App& command) {
     apply_axes(command, options);
     begin_command(options.shared);
     check_progress(options.shared.progress, options.json);
+    note_shard(options.shard);
     make_output_folder(options.output);
     if (!options.output.empty()) load_image_library();
     SharedOptions& shared = options.shared;
@@ -224,12 +215,12 @@ void run_report(ReportOptions& options, const CLI::App& command) {
     const ReportView view{scene, camera, shared.time};
     ReportRun run(view, shared.settings, error_limits(options.budget));
     report.context["error_resolution"] = run.error_size();
-    report.caption = caption_of(shared, scene, device, run);
+    report.caption = report_caption(report.context);
     measure(options, view, run, report);
-    print_result(options.json, report_json(report), report_text(report));
+    print_result(options.json, report_json(report, options.shard), report_text(report));
     if (!options.output.empty()) write_report(options, report, run);
     choose_from_rows(shared, options.budget, view, report.rows);
-    check_default(options, report.rows);
+    if (options.shard.count == 1) judge_default(report.rows, options.check_default);
     const std::string failures = failures_of(report.shares);
     if (!failures.empty()) throw Error(failures + "; the other devices measured the rest");
 }
@@ -248,6 +239,7 @@ void add_report_options(CLI::App& command, ReportOptions& options) {
                options.warm_up, {0, 1'000'000})
         .count({"--frames", "N", "20", "Measured frames; slow settings get fewer"}, options.frames,
                {1, 1'000'000})
+        .value({"--shard", "I/N", "0/1", shard_meaning("setting")}, options.shard, parse_shard)
         .flag("--check-default", options.check_default,
               "Exit with 3 where another setting is faster beyond noise and as exact")
         .text({"--output,-o", "DIR", "", "Folder for CSV, JSON, Markdown, plots and pictures"},
@@ -268,6 +260,38 @@ constexpr const char* kReportExamples =
     "  kilolux report --axes gbuffer,grid --resolution 1280,720 -o results";
 
 }  // namespace
+
+std::string report_caption(const Json& context) {
+    const auto size = [](const Json& edges) {
+        return fmt::format("{}x{}", edges[0].get<int>(), edges[1].get<int>());
+    };
+    const Json& scene = context.at("scene");
+    return fmt::format(
+        "{}, {} lights, {} pixels, errors at {}, {}", scene.at("name").get<std::string>(),
+        context.at("lights").get<std::uint64_t>() + scene.at("lights").get<std::uint64_t>(),
+        size(context.at("resolution")), size(context.at("error_resolution")),
+        context.at("device").at("name").get<std::string>());
+}
+
+// "gbuffer half" -> "gbuffer_half".
+fs::path error_map_file(const fs::path& folder, std::string setting) {
+    for (char& c : setting) {
+        if (c == ' ' || c == ',' || c == '/') c = '_';
+    }
+    return folder / "errors" / (setting + ".png");
+}
+
+void judge_default(const std::vector<ReportRow>& rows, bool must_hold) {
+    const ReportRow* better = row_that_beats_default(rows);
+    if (better == nullptr) return;
+    const std::string text = fmt::format(
+        "another setting beats the default: {} takes {:.2f} of its time, its R2 RMSE is {:.3g} "
+        "for {:.3g}",
+        better->setting.name, better->speed.relative, better->surfaces.hdr.rmse,
+        rows.front().surfaces.hdr.rmse);
+    if (must_hold) throw ComparisonFailed(text);
+    warn(text);
+}
 
 void add_report_command(Program& program) {
     program.add_command(

@@ -130,6 +130,12 @@ SweepFields fields_of(const SweepPoint& p) {
             {"gbuffer", gbuffer_layout_name(p.gbuffer)}};
 }
 
+std::string point_text(const SweepPoint& point) {
+    std::vector<std::string> parts;
+    for (const auto& [field, text] : fields_of(point)) parts.push_back(field + " " + text);
+    return joined(parts);
+}
+
 std::string field_text(const SweepPoint& point, const std::string& field) {
     const SweepFields fields = fields_of(point);
     return std::ranges::find(fields, field, &SweepFields::value_type::first)->second;

@@ -58,6 +58,9 @@ bool has_clusters(RendererKind renderer);
 using SweepFields = std::vector<std::pair<std::string, std::string>>;
 SweepFields fields_of(const SweepPoint& point);
 
+/// The fields with their texts: "renderer deferred, resolution 1920x1080, ...".
+std::string point_text(const SweepPoint& point);
+
 /// The text of one field.
 std::string field_text(const SweepPoint& point, const std::string& field);
 

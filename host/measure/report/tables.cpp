@@ -213,7 +213,8 @@ Table report_table(const std::vector<Row>& rows) {
         {{"drawn rmse", [](const Row& row) { return row.drawn.rmse; }},
          {"drawn 99.9 % rel", [](const Row& row) { return row.drawn.relative.percentile_99_9; }},
          {"drawn max rel", [](const Row& row) { return row.drawn.relative.max; }},
-         {"tails rmse", [](const Row& row) { return row.tails.rmse; }}});
+         {"tails rmse", [](const Row& row) { return row.tails.rmse; }},
+         {"tails relmse", [](const Row& row) { return row.tails.rel_mse; }}});
     add_estimates(columns, rows);
     return make_table(columns, rows);
 }

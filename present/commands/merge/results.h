@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// The common part of the files of `kilolux merge`.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "host/measure/bench/table.h"
+
+namespace kilolux {
+
+struct MergeOptions {
+    std::filesystem::path output;                // folder
+    std::vector<std::filesystem::path> results;  // folders, or their CSV files
+    bool keep_differences = false;
+    bool check_default = false;
+    bool quiet = false;
+};
+
+/// What a run of bench or report, or one of its shards, left.
+struct Result {
+    std::filesystem::path csv;
+    nlohmann::ordered_json document;
+    TextTable table;
+    std::vector<std::string> points{};  // of each row
+};
+
+/// A row of a result.
+struct ResultRow {
+    std::size_t result;
+    std::size_t row;
+};
+
+/// All rows in the order of the sweep, as one run would have written them. Throws Error where a
+/// point lacks, is none of the sweep's or is in two results of the same commit, device and driver.
+std::vector<ResultRow> rows_in_order(const std::vector<Result>& results);
+
+/// The columns that tell results apart which were measured under other conditions, and theirs.
+struct ConditionColumn {
+    const char* name;
+    const char* path;  // in the context
+};
+inline constexpr ConditionColumn kConditionColumns[] = {
+    {"commit", "/program/commit"}, {"device", "/device/name"}, {"driver", "/device/driver"}};
+std::string condition_of(const Result& result, const ConditionColumn& column);
+
+/// The document of what is merged, but for the rows. Values in which the contexts differ become
+/// lists.
+nlohmann::ordered_json merged_document(const std::vector<Result>& results);
+
+void merge_bench(const MergeOptions& options, std::vector<Result> results);
+void merge_report(const MergeOptions& options, std::vector<Result> results);
+
+}  // namespace kilolux
