@@ -2,6 +2,7 @@
 """Frames of a sequence on the workers of a Dask cluster."""
 from __future__ import annotations
 
+import hashlib
 import os
 import pickle
 import threading
@@ -14,24 +15,30 @@ from .scene import Scene
 Result = TypeVar("Result")
 
 _lock = threading.Lock()  # a worker's threads take turns: one renderer uses all its cores
-_kept: tuple[bytes, Renderer] | None = None
+_kept: tuple[tuple[str, int], Renderer] | None = None
+
+_Job = tuple[str, "str | os.PathLike[str] | Scene", dict[str, Any]]  # a digest, the scene, the options
 
 
-def _renderer(scene: str | os.PathLike[str] | Scene, options: dict[str, Any]) -> Renderer:
+def _same(job: _Job) -> _Job:
+    """A task of its own, so that a worker gets the scene once, and again where all that had it died."""
+    return job
+
+
+def _renderer(job: _Job) -> Renderer:
     """The last task's renderer where scene and options are the same."""
     global _kept
+    digest, scene, options = job
     changed = os.stat(scene).st_mtime_ns if isinstance(scene, (str, os.PathLike)) and os.path.exists(scene) else 0
-    key = pickle.dumps((scene, changed, sorted(options.items())))
-    if _kept is None or _kept[0] != key:
+    if _kept is None or _kept[0] != (digest, changed):
         _kept = None  # two might not fit into memory
-        _kept = key, Renderer(scene, **options)
+        _kept = (digest, changed), Renderer(scene, **options)
     return _kept[1]
 
 
-def _make(scene: str | os.PathLike[str] | Scene, options: dict[str, Any], number: int, time: float,
-          take: Callable[[Frame, int], Result]) -> Result:
+def _make(job: _Job, number: int, time: float, take: Callable[[Frame, int], Result]) -> Result:
     with _lock:
-        frame = _renderer(scene, options).render(time)
+        frame = _renderer(job).render(time)
     return take(frame, number)
 
 
@@ -44,5 +51,6 @@ def map_frames(client: Any, scene: str | os.PathLike[str] | Scene, frames: Itera
     its renderer from frame to frame; frames of a worker that dies are made by others.
     """
     start = options.pop("time", 0.0)
-    return [client.submit(_make, scene, options, number, start + number / fps, take, pure=False)
-            for number in frames]
+    digest = hashlib.sha256(pickle.dumps((scene, sorted(options.items())))).hexdigest()
+    job = client.submit(_same, (digest, scene, options), pure=False)
+    return [client.submit(_make, job, number, start + number / fps, take, pure=False) for number in frames]
