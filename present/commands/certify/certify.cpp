@@ -2,6 +2,8 @@
 #include "present/commands/certify/certify.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 #include <set>
@@ -11,6 +13,7 @@
 #include "host/base/system/atomic_write.h"
 #include "host/base/system/interrupt.h"
 #include "host/base/text.h"
+#include "host/render/plan/kernel_choice.h"
 #include "present/cli/conditions.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/progress.h"
@@ -24,14 +27,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr int kLaneWidths[] = {1, 2, 4, 8, 16};
+
 struct CertifyOptions {
     std::string device;
-    std::vector<int> lanes = {1, 2, 4, 8, 16};
+    std::vector<int> lanes{std::begin(kLaneWidths), std::end(kLaneWidths)};
     std::optional<std::set<std::size_t>> cases;  // places in hard_cases(); none: all
     std::set<std::size_t> parts;                 // places in certificate_parts()
     bool isolate = false;
     int jobs = 1;  // processes at once; above 1 they are isolated
     bool resume = false;
+    bool quick = false;
     std::vector<std::string> tables;  // --table: certificates to print instead of making one
     std::string output;               // file, "-" for standard output, empty: none
     ProgressKind progress = ProgressKind::automatic;
@@ -40,15 +46,37 @@ struct CertifyOptions {
 };
 
 void check(const CertifyOptions& o) {
-    if (!o.tables.empty() &&
-        (o.cases || !o.parts.empty() || o.isolate || o.jobs > 1 || o.resume || !o.output.empty())) {
+    if (!o.tables.empty() && (o.cases || !o.parts.empty() || o.isolate || o.jobs > 1 || o.resume ||
+                              o.quick || !o.output.empty())) {
         throw UsageError(
-            "--table: prints what was certified; it goes with no --case, --with, --isolate, "
-            "--jobs, --resume or -o");
+            "--table: prints what was certified; it goes with no --quick, --case, --with, "
+            "--isolate, --jobs, --resume or -o");
     }
     check_progress(o.progress, o.output == "-");
     refuse_if(o.resume && (o.output.empty() || o.output == "-"),
               "--resume: goes on with the file of -o, which is not given");
+}
+
+// The values of --quick, unless the command line gives others.
+void apply_quick(const CLI::App& command, const cl::Device& device, CertifyOptions& options) {
+    if (!options.quick) return;
+    constexpr std::size_t kEquality = 0;
+    if (!is_given(command, "--lanes"))
+        options.lanes = {choose_tuning(describe(device), KernelSettings{}).lanes};
+    if (!is_given(command, "--with")) options.parts = {kEquality};
+}
+
+// What a quick run has not tried.
+std::string left_out_text(const CertifyOptions& options) {
+    std::vector<std::string> words;
+    for (const int width : kLaneWidths) {
+        if (std::ranges::count(options.lanes, width) == 0)
+            words.push_back(fmt::format("{} {}", width, width == 1 ? "lane" : "lanes"));
+    }
+    for (std::size_t i = 0; i < certificate_parts().size(); ++i) {
+        if (!options.parts.contains(i)) words.emplace_back(certificate_parts()[i].name);
+    }
+    return "\nleft out by --quick: " + joined(words) + "\n";
 }
 
 std::vector<HardCase> chosen_cases(const CertifyOptions& options) {
@@ -142,7 +170,7 @@ std::string parts_text(const nlohmann::ordered_json& parts) {
     return out;
 }
 
-void run_certify(const CertifyOptions& options) {
+void run_certify(CertifyOptions& options, const CLI::App& command) {
     check(options);
     if (!options.tables.empty()) {
         std::fputs(certificates_text(options.tables).c_str(), stdout);
@@ -151,6 +179,7 @@ void run_certify(const CertifyOptions& options) {
     set_verbosity(Verbosity::quiet);  // for the scenes of the parts
     if (!options.output.empty() && options.output != "-") check_can_write(options.output);
     const cl::Device device = choose_device(options.device);
+    apply_quick(command, device, options);
     const Certificate made = make_certificate(options, device);
     if (!options.output.empty()) {
         write_json(options.output, certificate_json(capabilities_json(device), made));
@@ -158,6 +187,7 @@ void run_certify(const CertifyOptions& options) {
     if (options.output != "-") {
         if (!made.rows.empty()) std::fputs(to_markdown(hard_case_table(made.rows)).c_str(), stdout);
         std::fputs(parts_text(made.parts).c_str(), stdout);
+        if (options.quick) std::fputs(left_out_text(options).c_str(), stdout);
     }
     require_all_passed(made);
 }
@@ -198,6 +228,9 @@ void add_result_options(CLI::App& command, CertifyOptions& options) {
 void add_certify_options(CLI::App& command, CertifyOptions& options) {
     using Text = const std::string&;
     OptionBuilder(command, "What is run")
+        .flag("--quick", options.quick,
+              "A node's admission test, 20 s on two CPU cores that have built the kernels before: "
+              "every case at the lane width in force, and equality")
         .value(SettingKind::list,
                {"--case", "NAME,...", "all",
                 "Cases by name or label, e.g. tiny-lights,M3; none for none"},
@@ -249,6 +282,7 @@ void add_certify_options(CLI::App& command, CertifyOptions& options) {
 
 constexpr const char* kCertifyExamples =
     "  kilolux certify\n"
+    "  kilolux certify --quick\n"
     "  kilolux certify --device 1 --with all -o device1.json\n"
     "  kilolux certify --case long-sums,M3 --lanes 8\n"
     "  kilolux certify --quiet -o - > result.json";

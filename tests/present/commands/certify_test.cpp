@@ -2,6 +2,7 @@
 // `kilolux certify`: its exit codes, its table and its JSON.
 #include "present/commands/certify/certify.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -203,6 +204,35 @@ TEST_F(Certify, TheTableIsThatOfTheCertificates) {
         << "run host/certify/devices/make_table";
 }
 
+// The admission test of a node.
+TEST_F(Certify, QuickTriesOneWidthAndSaysWhatItLeavesOut) {
+    const TemporaryFolder folder;
+    const std::string file = (folder / "node.json").string();
+    const ChildResult result = run_kilolux({"certify", "--quick", "--quiet", "-o", file});
+    ASSERT_EQ(result.code, 0) << result.out << result.err;
+    const Json json = Json::parse(text_of_file(file));
+    EXPECT_TRUE(json.at("passed"));
+    EXPECT_TRUE(json.at("equality").at("passed"));
+    EXPECT_FALSE(json.contains("stages"));
+    const int width = json.at("cases").at(0).at("lanes").at(0);
+    std::string left_out = "\nleft out by --quick: ";
+    for (const int other : {1, 2, 4, 8, 16}) {
+        if (other != width) left_out += fmt::format("{} lane{}, ", other, other == 1 ? "" : "s");
+    }
+    EXPECT_TRUE(result.out.ends_with(left_out + "oclgrind, stages, tuning\n")) << result.out;
+    EXPECT_EQ(json.at("cases").size(), hard_cases().size());
+    for (const Json& row : json.at("cases")) EXPECT_EQ(row.at("lanes"), Json({width})) << row;
+    // What the command line says counts.
+    const ChildResult less = run_kilolux(
+        {"certify", "--quick", "--case", "27", "--lanes", "2", "--with", "tuning", "-o", file});
+    ASSERT_EQ(less.code, 0) << less.err;
+    const Json asked = Json::parse(text_of_file(file));
+    EXPECT_EQ(asked.at("cases").size(), 1u);
+    EXPECT_EQ(asked.at("cases").at(0).at("lanes"), Json({2}));
+    EXPECT_FALSE(asked.contains("equality"));
+    EXPECT_TRUE(contains(less.out, "left out by --quick: 1 lane, 4 lanes, ")) << less.out;
+}
+
 // Kernels whose lights reach half as far must not pass.
 TEST_F(Certify, AFailedCaseExitsWithThreeAndIsNamed) {
     const TemporaryFolder folder;
@@ -216,7 +246,7 @@ TEST_F(Certify, AFailedCaseExitsWithThreeAndIsNamed) {
     set("KILOLUX_SOURCE_DIR", folder.path().c_str());
     const std::string file = (folder / "result.json").string();
     const ChildResult result = run_kilolux(
-        {"certify", "--case", "3,30", "--lanes", "8", "--with", "equality", "--quiet", "-o", file});
+        {"certify", "--quick", "--case", "3,30", "--lanes", "8", "--quiet", "-o", file});
     EXPECT_EQ(result.code, 3) << result.out << result.err;
     EXPECT_TRUE(
         result.err.ends_with("kilolux: certify: 1 of 2 hard cases failed: 3 beyond-the-grid; "
