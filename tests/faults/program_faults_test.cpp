@@ -381,6 +381,117 @@ TEST_F(Faults, OutputsThatCannotBeWritten) {
     EXPECT_TRUE(names_in(other).empty());
 }
 
+// Waits for a file of a sequence that the program makes.
+void wait_for(const fs::path& file) {
+    while (!fs::exists(file)) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+}
+
+// An unmounted share, a folder that another job removes: the task is started again.
+TEST_F(Faults, AFolderThatVanishesEndsTheSequence) {
+    const fs::path lost = elsewhere_ / "lost";
+    for (const char* name : {"f.#####.png", "f.#####.exr"}) {
+        fs::create_directory(lost);
+        const fs::path first = lost / fmt::format("f.00000{}", fs::path(name).extension().string());
+        const ChildResult result = run_child(
+            render_words({}, lost / name, {"--frames", "0:99999", "--quiet"}), [&](pid_t) {
+                wait_for(first);
+                // A file may appear while the others are removed.
+                std::error_code none;
+                while (fs::exists(lost)) fs::remove_all(lost, none);
+            });
+        expect_failure(result, (lost / "f.").string());
+        EXPECT_TRUE(has(result.err, "No such file or directory")) << result.err;
+        EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+        EXPECT_FALSE(fs::exists(lost)) << "it is not made again";
+    }
+    fs::create_directory(lost);
+    const ChildResult video =
+        run_child(render_words({}, lost / "v.y4m", {"--frames", "0:199", "--quiet"}), [&](pid_t) {
+            while (fs::is_empty(lost)) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+            fs::remove_all(lost);
+        });
+    expect_failure(video, (lost / "v.y4m").string());
+    EXPECT_EQ(std::ranges::count(video.err, '\n'), 1) << video.err;
+}
+
+// Once lost, a device fails every call. The next try makes what is missing.
+TEST_F(Faults, ADeviceThatIsLostEndsTheSequence) {
+    const auto render = [&](const Words& before, const std::string& folder) {
+        fs::create_directories(elsewhere_ / folder);
+        return run_child(render_words(before, elsewhere_ / folder / "f.#.png",
+                                      {"--frames", "0:5", "--quiet", "--skip-existing"}));
+    };
+    ASSERT_EQ(render({}, "whole").code, 0);
+    std::set<std::size_t> made;
+    for (const int call : {400, 1000, 1200, 1300, 1500, 1700}) {
+        const std::string folder = fmt::to_string(call);
+        const ChildResult result =
+            render(with_environment({"OPENCL_LAYERS=" KILOLUX_FAULT_LAYER,
+                                     fmt::format("KILOLUX_FAULT={}:-2:lost", call)}),
+                   folder);
+        if (result.code == 0) continue;  // there are fewer calls
+        SCOPED_TRACE(call);
+        expect_failure(result, "CL_DEVICE_NOT_AVAILABLE");
+        EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+        std::size_t files = 0;
+        for (const auto& entry : fs::directory_iterator(elsewhere_ / folder)) {
+            files += entry.path().extension() == ".png" ? 1 : 100;
+        }
+        made.insert(files);
+        ASSERT_EQ(render({}, folder).code, 0);
+        for (int frame = 0; frame < 6; ++frame) {
+            const std::string name = fmt::format("f.{}.png", frame);
+            EXPECT_EQ(text_of_file(elsewhere_ / folder / name),
+                      text_of_file(elsewhere_ / "whole" / name));
+        }
+    }
+    EXPECT_LT(*made.rbegin(), 6u) << "no file but pictures";
+    EXPECT_GT(made.size(), 1u) << "at several frames of the sequence";
+}
+
+// The table of exit codes in host/install/farm: 2 is not worth a retry.
+TEST_F(Faults, BadOptionsAreTwoAndBadScenesOne) {
+    write_text(elsewhere_ / "broken.gltf", "{\"asset\": {");
+    write_text(elsewhere_ / "old.gltf", R"({"asset": {"version": "1.0"}})");
+    write_text(elsewhere_ / "missing.gltf", R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+"bufferViews":[{"buffer":0,"byteLength":36}],
+"accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3}],
+"buffers":[{"byteLength":36,"uri":"no.bin"}]})");
+    write_text(elsewhere_ / "text.glb", "this is no glTF");
+    const struct {
+        Words more;
+        int code;
+    } cases[] = {{{"--lights", "-1"}, 2},
+                 {{"--no-such-option"}, 2},
+                 {{"--frames", "5:1"}, 2},
+                 {{"--frames", "0:3"}, 2},  // one file
+                 {{"--shard", "4/4", "--frames", "0:9"}, 2},
+                 {{"--shard", "auto/4", "--frames", "0:9"}, 2},  // no scheduler
+                 {{"--crop", "40,0,9,9"}, 2},
+                 {{"--tiles", "9x9"}, 2},  // one file
+                 {{"-o", (elsewhere_ / "a.bmp").string()}, 2},
+                 {{"--device", "no such device"}, 1},
+                 {{(elsewhere_ / "broken.gltf").string()}, 1},
+                 {{(elsewhere_ / "old.gltf").string()}, 1},
+                 {{(elsewhere_ / "missing.gltf").string()}, 1},
+                 {{(elsewhere_ / "text.glb").string()}, 1},
+                 {{(elsewhere_ / "no_such.gltf").string()}, 1}};
+    for (const auto& c : cases) {
+        Words words = render_words({}, picture_, c.more);
+        // A scene takes the place of the usual one.
+        if (!c.more.front().starts_with("-")) {
+            words[2] = c.more.front();
+            words.pop_back();
+        }
+        const ChildResult result = run_child(words);
+        EXPECT_EQ(result.code, c.code) << c.more.front() << ": " << result.err;
+        EXPECT_TRUE(result.err.starts_with("kilolux: ")) << result.err;
+        EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+        expect_untouched();
+    }
+}
+
 // Waits until the program handles the signal, which it blocks for a thread that waits for it
 // (proc_pid_status(5)), or has ended.
 void wait_until_handled(pid_t child, int number) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A layer between the OpenCL loader and the drivers (OPENCL_LAYERS) that makes one call fail: the
-// n-th after fault_layer_arm(n, code), or after the start with KILOLUX_FAULT=n:code.
+// n-th after fault_layer_arm(n, code), or after the start with KILOLUX_FAULT=n:code; n:code:lost
+// makes those after it fail, too.
 #include <CL/cl_layer.h>
 
 #include <atomic>
@@ -17,6 +18,7 @@ struct Layer {
     std::atomic<int> calls{0};
     std::atomic<int> failing{0};  // 0: none
     std::atomic<int> code{0};
+    bool is_lost = false;
 };
 
 Layer& layer() {
@@ -27,7 +29,8 @@ Layer& layer() {
 // The code with which this call fails, or 0.
 cl_int fault() {
     Layer& l = layer();
-    return ++l.calls == l.failing ? l.code.load() : CL_SUCCESS;
+    const int call = ++l.calls;
+    return call == l.failing || (l.is_lost && call > l.failing) ? l.code.load() : CL_SUCCESS;
 }
 
 // Calls that return a code.
@@ -35,6 +38,13 @@ template <auto Entry, typename... Arguments>
 cl_int call(Arguments... arguments) {
     const cl_int code = fault();
     return code != CL_SUCCESS ? code : (layer().next->*Entry)(arguments...);
+}
+
+// A lost device writes no memory any more, so the driver ends what it does, whatever this returns.
+cl_int finish(cl_command_queue queue) {
+    const cl_int code = fault();
+    const cl_int done = layer().next->clFinish(queue);
+    return code != CL_SUCCESS ? code : done;
 }
 
 template <auto Entry, typename... Arguments>
@@ -149,13 +159,14 @@ CL_API_ENTRY cl_int CL_API_CALL clInitLayer(cl_uint count, const cl_icd_dispatch
     divert<&cl_icd_dispatch::clEnqueueReadBuffer>(&cl_icd_dispatch::clEnqueueReadBuffer);
     divert<&cl_icd_dispatch::clEnqueueWriteBuffer>(&cl_icd_dispatch::clEnqueueWriteBuffer);
     divert<&cl_icd_dispatch::clEnqueueUnmapMemObject>(&cl_icd_dispatch::clEnqueueUnmapMemObject);
-    divert<&cl_icd_dispatch::clFinish>(&cl_icd_dispatch::clFinish);
+    l.table.clFinish = finish;
     divert<&cl_icd_dispatch::clWaitForEvents>(&cl_icd_dispatch::clWaitForEvents);
     divert<&cl_icd_dispatch::clGetEventProfilingInfo>(&cl_icd_dispatch::clGetEventProfilingInfo);
     if (const char* text = std::getenv("KILOLUX_FAULT")) {
         int call_number = 0, code = 0;
         if (std::sscanf(text, "%d:%d", &call_number, &code) == 2) {
             fault_layer_arm(call_number, code);
+            layer().is_lost = std::strstr(text, ":lost") != nullptr;
         }
     }
     *count_ret = kEntries;
