@@ -2,6 +2,8 @@
 // --crop and --tiles of `kilolux render`: the pixels of the whole picture, in files of their own.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "present/cli/sequence.h"
 #include "present/image/image_file.h"
 #include "tests/support/child.h"
@@ -75,6 +77,23 @@ TEST(RenderCrop, TilesAreThePictureByShards) {
         const ChildResult again =
             render(tiles, {"--tiles", "3x2", "--skip-existing", "--shard", "1/2"});
         EXPECT_TRUE(contains(again.err, "nothing to render: every file is there")) << again.err;
+    }
+}
+
+// A shard's tiles, by their numbers and files; lights are those of the picture.
+TEST(RenderCrop, StatsNameEachTile) {
+    const TemporaryFolder folder;
+    const fs::path stats = folder / "stats.json", tiles = folder / "t.#.png";
+    ASSERT_EQ(render(tiles, {"--tiles", "2x2", "--shard", "1/2", "--stats", stats.string()}).code,
+              0);
+    const nlohmann::json document = nlohmann::json::parse(text_of_file(stats));
+    ASSERT_EQ(document.at("frames").size(), 2u);
+    for (int i = 0; i < 2; ++i) {
+        const nlohmann::json& frame = document.at("frames").at(static_cast<std::size_t>(i));
+        EXPECT_EQ(frame.at("frame"), 2 * i + 1);
+        EXPECT_EQ(frame.at("file"), frame_file(tiles, 2 * i + 1).string());
+        EXPECT_EQ(frame.at("lights").at("given"), document.at("lights").at("given"));
+        EXPECT_GT(frame.at("frame_ms"), 0.0);
     }
 }
 
