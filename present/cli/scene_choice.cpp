@@ -17,6 +17,7 @@
 #include "host/scene/lights/bounded_loss.h"
 #include "host/scene/lights/built_in_environments.h"
 #include "host/scene/lights/light_tree.h"
+#include "present/cli/commit.h"
 #include "present/cli/names.h"
 #include "present/cli/progress.h"
 #include "present/image/image_file.h"
@@ -169,7 +170,7 @@ std::string add_environment(SharedOptions& options, AnimatedScene& scene) {
     std::string line = fmt::format("; environment {}: ", options.environment);
     if (options.reflections) {
         options.maps =
-            std::make_shared<const PrefilteredEnvironment>(kept_prefiltered(environment));
+            std::make_shared<const PrefilteredEnvironment>(kept_prefiltered(environment, commit()));
         line += "prefiltered";
         if (has_blended_surfaces(scene.scene())) line += ", which does not light what blends";
     } else {

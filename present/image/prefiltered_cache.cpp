@@ -26,8 +26,9 @@ std::string_view bytes_of(const std::vector<T>& values) {
 }
 
 // Identifies the environment and the program.
-std::string head_of(const Environment& environment) {
-    return std::string(kFormat) + version() + " " + hash_text(bytes_of(environment.rows)) + "\n";
+std::string head_of(const Environment& environment, std::string_view commit) {
+    return std::string(kFormat) + version() + " " + std::string(commit) + " " +
+           hash_text(bytes_of(environment.rows)) + "\n";
 }
 
 std::string body_of(const PrefilteredEnvironment& maps) {
@@ -99,10 +100,10 @@ void keep(const fs::path& file, const std::string& head, const PrefilteredEnviro
 
 }  // namespace
 
-PrefilteredEnvironment kept_prefiltered(const Environment& environment) {
+PrefilteredEnvironment kept_prefiltered(const Environment& environment, std::string_view commit) {
     const fs::path folder = cache_folder();
     if (folder.empty()) return prefiltered(environment);
-    const std::string head = head_of(environment);
+    const std::string head = head_of(environment, commit);
     const fs::path file = folder / (std::string(kPrefix) + hash_text(head));
     if (auto kept = parsed(read_cache_file(file, kLargest), head)) {
         std::error_code error;

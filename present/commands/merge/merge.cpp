@@ -89,7 +89,8 @@ void run_merge(MergeOptions& options) {
     refuse_if(is_bench && options.check_default, "--check-default: goes with results of report");
     require_one_sweep(results, options.keep_differences);
     make_output_folder(options.output);
-    is_bench ? merge_bench(options, std::move(results)) : merge_report(options, std::move(results));
+    if (is_bench) return merge_bench(options, std::move(results));
+    merge_report(options, std::move(results));
 }
 
 void add_merge_options(CLI::App& command, MergeOptions& options) {
