@@ -166,7 +166,7 @@ TEST(SceneFile, ChoicesThatItDoesNotHaveAreOneLine) {
     EXPECT_TRUE(contains(generated.err, "--variant: grid is a generated scene")) << generated.err;
 }
 
-TEST(Info, TellsWhatLeftOutFeaturesWouldCost) {
+TEST(Info, TellsInStatsWhatLeftOutFeaturesWouldCost) {
     const TemporaryFolder folder;
     const EnvironmentVariable cache("XDG_CACHE_HOME", folder.path().string());
     const std::vector<std::string> words = {"info",  "plain",    "--json", "--resolution",
