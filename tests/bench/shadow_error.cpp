@@ -90,30 +90,30 @@ class SampledSums {
         const float* x = &picture.radiance[3 * i];
         const float* r = &of_.exact.radiance[3 * i];
         const double estimated = std::pow(double{picture.aovs[0].values[i]}, 2.0);
-        const double off = luminance_at(x) - luminance_at(r);
+        const double off = luminance(x) - luminance(r);
         ++added_;
         for (int c = 0; c < 3; ++c) squares_ += std::pow(double{x[c]} - double{r[c]}, 2.0);
         result_.variance += off * off;
         result_.estimated_variance += estimated;
-        half.sum[i] += luminance_at(x);
+        half.sum[i] += luminance(x);
         half.estimated[i] += estimated;
         noisy_[i].differs =
             noisy_[i].differs || estimated > 0.0 || differs_from(r, x, &of_.whole.radiance[3 * i]);
-        noisy_[i].within += is_within(luminance_at(x), estimated, luminance_at(r)) ? 1 : 0;
+        noisy_[i].within += is_within(luminance(x), estimated, luminance(r)) ? 1 : 0;
     }
 
     // A hidden light that was drawn takes the luminance without shadows over the rays away, and
     // adds its square, times one minus its probability, to the variance:
     // kernels/shadows/shadow_pick.h.
     double hidden_draws(const HalfOfPictures& half, std::size_t i) const {
-        const double each = luminance_at(&of_.whole.radiance[3 * i]) / result_.rays;
+        const double each = luminance(&of_.whole.radiance[3 * i]) / result_.rays;
         return each > 0.0 ? half.estimated[i] / (each * each) : 0.0;
     }
 
     bool is_mean_within(const HalfOfPictures& half, std::size_t i) const {
         const double n = half.seeds;
         return is_within(half.sum[i] / n, half.estimated[i] / (n * n),
-                         luminance_at(&of_.exact.radiance[3 * i]));
+                         luminance(&of_.exact.radiance[3 * i]));
     }
 
     const TruePictures& of_;

@@ -60,7 +60,7 @@ bool passes(const Ray& ray, bool is_direction, double pad) {
 
 // Coordinates are at most 1, so the pad is the same for all.
 TEST(ShadowTriangle, RaysPassItsBoxAsInDouble) {
-    constexpr double kNearest = 0.5 * SHADOW_PAD;
+    constexpr double kClose = 0.5 * SHADOW_PAD;
     std::mt19937 random(9);
     std::uniform_real_distribution<float> place(-1.0f, 1.0f), size(0.0f, 0.8f);
     const auto vector = [&](auto& of) { return glm::vec3(of(random), of(random), of(random)); };
@@ -74,7 +74,7 @@ TEST(ShadowTriangle, RaysPassItsBoxAsInDouble) {
         int passing = 0;
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const bool does = passes(rays[i], are_directions, 0.0);
-            if (does != passes(rays[i], are_directions, 1.2 * kNearest)) continue;
+            if (does != passes(rays[i], are_directions, 1.2 * kClose)) continue;
             ASSERT_EQ(found[i], does ? 1 : 0) << "ray " << i;
             passing += found[i];
         }
