@@ -32,16 +32,12 @@ static inline FV seen_share(ShadowPick pick, ShadowBits bits, uint i, FV alone) 
 
 kernel void tail_variance(LIT_ARGS, WORD_ARGS(const), SAMPLE_ARGS,
                           global float* restrict variance) {  // in/out [height][stride]
-    GBuffer g = GBUFFER_OF_ARGS;
-    Clusters active = CLUSTERS_OF_ARGS;
-    ItemPlace at = place_in_planes(view);
-    LitItem item = ordered_item(g, active, at);
-    if (!item.any) return;
+    BEGIN_ORDERED_ITEM;
     Surface s = load_surface(g, item.pixels, item.z);
     ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
     ShadowPick pick;
 #if SAMPLED_SHADOWS
-    pick = make_pick(s, whole, view, item.pixels, at.x, at.y, rays, seed);
+    pick = make_pick(s, SAMPLES_OF_ARGS, view, item.pixels, at);
 #endif
     pick.surface = s;
     pick.surface.emissive = zero3();
@@ -49,9 +45,7 @@ kernel void tail_variance(LIT_ARGS, WORD_ARGS(const), SAMPLE_ARGS,
     LightProfiles profiles = {aimed_profiles, profile_tables};
 #endif
     FV sum = fv(0.0f);
-    FOR_EACH_CLUSTER(i, active, at.tile) {
-        MASK mine = lanes_in_cluster(item, active, i);
-        if (!lane_any(mine)) continue;
+    FOR_EACH_CLUSTER_OF(item, i, mine, active, at.tile) {
         ShadowBits bits;
 #if SHADOWS
         bits =
