@@ -56,8 +56,8 @@ static inline uint normal_code(View view, float4 v, uint is_world) {
 }
 
 // depth: bits of a float or 24; it, normal and albedo are [height][pitch], pitch in pixels. invert:
-// 1: the depth plane holds 1 - d. world_normals: 0: they are in view space. roughness: below 0:
-// that of the albedo's 4th channel.
+// 1: the depth plane holds 1 - d. world_normals: 0: they are in view space. roughness: or
+// ROUGHNESS_OF_ALBEDO.
 #define SOURCE_ARGS                                                               \
     SOURCE(uint)                                                                  \
     depth, SOURCE(NORMAL) normal, SOURCE(ALBEDO) albedo, uint pitch, uint invert, \
@@ -103,7 +103,7 @@ kernel void repack_gbuffer(SOURCE_ARGS, GBufferLayout layout, View view,
         float4 color = vload_half4(at, albedo);
 #endif
 #endif
-        float rough = roughness < 0.0f ? color.w : roughness;
+        float rough = roughness == ROUGHNESS_OF_ALBEDO ? color.w : roughness;
 #if ALBEDO_FORMAT == 0
         albedo_word = pack_linear(fv3(color.x, color.y, color.z), unorm_code(rough, 255.0f));
 #else

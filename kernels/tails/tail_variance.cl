@@ -54,8 +54,8 @@ kernel void tail_variance(LIT_ARGS, WORD_ARGS(const), SAMPLE_ARGS,
         for (uint j = 0; j < clusters[i].list_count; ++j) {
             uint index = lists[clusters[i].list_begin + j];
             ShadeLight light = LIGHT_AT(lights, index);
+            if (!has_random_range(light)) continue;
             float4 from = light.position_inv_range2;
-            if (from.w > 0.0f) continue;
             FV3 v = fv3(fv(from.x) - p.position.x, fv(from.y) - p.position.y,
                         fv(from.z) - p.position.z);
             LightSum one = EVALUATE(zero_sum(), p, light, profiles, index);
