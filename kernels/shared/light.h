@@ -27,10 +27,6 @@ SHARED_ASSERT(light_size, sizeof(Light) == 48);
 // Whether its file gives the range; lights without one get a range, see light_ranges.h.
 SHARED_FN bool has_own_range(Light light) { return light.position_range.w > 0.0f; }
 
-SHARED_FN float range_of(Light light) {
-    return max(light.position_range.w, -light.position_range.w);
-}
-
 // A point or spot light in the world: positions as pairs of floats, 48 bits of a double's 53.
 SHARED_STRUCT(WorldLight) {
     Light light;          // its position in the world, rounded
@@ -49,11 +45,6 @@ SHARED_ASSERT(shade_light_size, sizeof(ShadeLight) == 48);
 
 // Whether the range is a random one: chosen_inv_range2() of light_transform.h.
 SHARED_FN bool has_random_range(ShadeLight light) { return light.position_inv_range2.w < 0.0f; }
-
-// 1/range^2, of a random range, too [1/m^2].
-SHARED_FN float inv_range2_of(ShadeLight light) {
-    return max(light.position_inv_range2.w, -light.position_inv_range2.w);
-}
 
 // A directional light: parallel, never culled.
 SHARED_STRUCT(DirectionalLight) {

@@ -24,10 +24,19 @@ SHARED_FN float4 rotated(View view, float4 v, float w) {
                        rotate_row(view.view_from_world_z, v), w);
 }
 
-// 1/range^2 of light `index`. With a seed, lights without a range of their own get a random one,
-// r = r0 / sqrt(1 - random): so that a point at distance d > r0 is in range with probability
-// (r0 / d)^2 and can weigh the light by its reciprocal, unbiased (Tokuyoshi and Harada 2016,
-// "Stochastic Light Culling"). Beyond 4096 r0 none is chosen: 6e-8 of the probability.
+SHARED_FN float range_of(Light light) {
+    return max(light.position_range.w, -light.position_range.w);
+}
+
+// 1/range^2, of a random range, too [1/m^2].
+SHARED_FN float inv_range2_of(ShadeLight light) {
+    return max(light.position_inv_range2.w, -light.position_inv_range2.w);
+}
+
+// 1/range^2 of light `index`, negative if random. With a seed, lights without a range of their own
+// get a random one, r = r0 / sqrt(1 - random): so that a point at distance d > r0 is in range with
+// probability (r0 / d)^2 and can weigh the light by its reciprocal, unbiased (Tokuyoshi and Harada
+// 2016, "Stochastic Light Culling"). Beyond 4096 r0 none is chosen: 6e-8 of the probability.
 SHARED_FN float chosen_inv_range2(Light light, uint index, uint seed) {
     float range = range_of(light);
     float inv = min(1.0f / (range * range), INV_RANGE2_MAX);

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "host/measure/reference/decoded_samples.h"
+#include "kernels/shared/light_transform.h"
 
 namespace kilolux {
 namespace {
