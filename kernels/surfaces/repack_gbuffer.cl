@@ -6,6 +6,7 @@
 // NORMAL_FORMAT  0: 4x8 UNORM; 1: 2x16 UNORM, octahedral; 2: 4 floats
 // ALBEDO_FORMAT  0: 4x8 bits, sRGB; 1: 4 halves, linear. The 4th is the roughness
 // FROM_IMAGES    1: images of any format with these values
+#include "kernels/device/arguments.h"
 #include "kernels/device/gbuffer.h"
 #include "kernels/surfaces/store_gbuffer.h"
 
@@ -63,11 +64,9 @@ static inline uint normal_code(View view, float4 v, uint is_world) {
     depth, SOURCE(NORMAL) normal, SOURCE(ALBEDO) albedo, uint pitch, uint invert, \
         uint world_normals, float roughness
 
-// bucket_boundary, bucket_code: [SRGB_BUCKETS].
-kernel void repack_gbuffer(SOURCE_ARGS, GBufferLayout layout, View view,
-                           global const float* restrict bucket_boundary,
-                           global const uint* restrict bucket_code,
+kernel void repack_gbuffer(SOURCE_ARGS, GBufferLayout layout, View view, BUCKET_ARGS,
                            global uchar* restrict gbuffer) {
+    SrgbTable table = SRGB_TABLE_OF_ARGS;
     uint place = get_global_id(0);
     if (place >= view.stride * view.height) return;
     uint x = place % view.stride;
@@ -107,10 +106,8 @@ kernel void repack_gbuffer(SOURCE_ARGS, GBufferLayout layout, View view,
 #if ALBEDO_FORMAT == 0
         albedo_word = pack_linear(fv3(color.x, color.y, color.z), unorm_code(rough, 255.0f));
 #else
-        albedo_word =
-            pack_color(srgb_code(bucket_boundary, bucket_code, color.x),
-                       srgb_code(bucket_boundary, bucket_code, color.y),
-                       srgb_code(bucket_boundary, bucket_code, color.z), unorm_code(rough, 255.0f));
+        albedo_word = pack_color(srgb_code(table, color.x), srgb_code(table, color.y),
+                                 srgb_code(table, color.z), unorm_code(rough, 255.0f));
 #endif
     }
     bool shown = depth01 > BACKGROUND_DEPTH;
