@@ -90,9 +90,7 @@ void ForwardLightBuffers::upload(const ForwardLights& lights, const View& view) 
     light_lists_.refill(std::as_bytes(lights.light_lists), access_);
     if (lights.profiles.empty()) return;
     std::vector<AimedProfile> profiles;
-    for (const AimedProfile& p : lights.profiles) {
-        profiles.push_back({rotated(view, p.down, p.down.w), rotated(view, p.side, p.side.w)});
-    }
+    for (const AimedProfile& p : lights.profiles) profiles.push_back(aimed_in_view(view, p));
     profiles_.refill(std::as_bytes(std::span(profiles)), access_);
     profile_tables_.refill(std::as_bytes(lights.profile_tables), access_);
 }

@@ -30,6 +30,8 @@ struct ForwardFeatures : SceneFeatures {
 /// lights of its coarse cluster. Materials that blend come last, back to front.
 class ForwardPass {
  public:
+    static constexpr std::size_t kPixelBytes = 5 * sizeof(float);  // of its targets: RGBA, a depth
+
     /// Compiles the variants that the scene needs. The GpuScene must outlive this.
     ForwardPass(const GpuScene& scene, const ForwardFeatures& features);
 

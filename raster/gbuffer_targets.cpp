@@ -59,6 +59,7 @@ TargetPlan plan_targets(const GBufferNeeds& needs) {
             const bool whole = bytes > sizeof(uint);
             if (whole || bytes != last_bytes || ++component == room) {
                 plan.color_formats.push_back(whole || room > 1 ? format.four : format.one);
+                plan.pixel_bytes += whole || room == 1 ? bytes : 4 * bytes;
                 component = 0;
                 last_bytes = bytes;
             }

@@ -24,7 +24,8 @@ struct PlaneRead {
 struct TargetPlan {
     std::vector<GLenum> color_formats;  // of GL_COLOR_ATTACHMENT0, 1, ...
     std::vector<PlaneRead> reads;
-    Defines defines{};  // for planes.frag
+    Defines defines{};                        // for planes.frag
+    std::size_t pixel_bytes = sizeof(float);  // of all attachments, depth included
 };
 
 /// The attachments that the geometry pass draws to for these needs. Depth is always

@@ -52,6 +52,8 @@ class SolidPass {
 /// Which triangle each pixel shows: 1 + first_triangle of its draw + its number in the mesh, or 0.
 class IdsPass : public SolidPass {
  public:
+    static constexpr std::size_t kPixelBytes = 2 * sizeof(uint);  // of its targets: an id, a depth
+
     explicit IdsPass(const GpuScene& scene);
 };
 

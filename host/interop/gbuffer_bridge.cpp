@@ -14,8 +14,6 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kGbufferBridgeStage = "gbuffer_bridge";
-
 void wait_for(GLsync fence) {
     constexpr GLuint64 kSecond = 1'000'000'000;
     constexpr int kMostSeconds = 600;  // longer than any frame: the driver hangs
@@ -30,12 +28,18 @@ void wait_for(GLsync fence) {
                         kMostSeconds));
     }
     if (status == GL_WAIT_FAILED) {
-        check_gl_errors(kGbufferBridgeStage);
+        check_gl_errors(kGBufferBridgeStage);
         throw Error("gbuffer_bridge: OpenGL's wait for a copy failed");
     }
 }
 
 }  // namespace
+
+StageWork bridge_work(const StageCounts& c) {
+    const double bytes = c.bridge_bytes_per_pixel * c.pixels;
+    if (c.device_is_host) return {.bytes_read = bytes, .bytes_written = bytes};
+    return {.bytes_uploaded = bytes};
+}
 
 void GBufferBridge::DeleteFence::operator()(GLsync fence) const { glDeleteSync(fence); }
 
@@ -48,7 +52,7 @@ void GBufferBridge::make_staging(std::size_t bytes) {
                          kAccess | GL_CLIENT_STORAGE_BIT);
     staging->mapping =
         glMapNamedBufferRange(staging->pixels.name(), 0, static_cast<GLsizeiptr>(bytes), kAccess);
-    check_gl_errors(kGbufferBridgeStage);
+    check_gl_errors(kGBufferBridgeStage);
     if (!staging->mapping)
         throw Error(
             fmt::format("gbuffer_bridge: OpenGL cannot map a pixel buffer of {} MiB", bytes >> 20));
@@ -91,7 +95,7 @@ void GBufferBridge::carry(const GBufferTargets& targets, std::vector<PlaneCopy> 
         wait_for(plane.done.get());
         if (!gpu_.info.is_cpu) upload(plane);
     }
-    check_gl_errors(kGbufferBridgeStage);
+    check_gl_errors(kGBufferBridgeStage);
     if (gpu_.info.is_cpu) {
         // Tells the device that the memory behind its buffer has changed.
         void* mapped = gpu_.queue.enqueueMapBuffer(staging_->device, CL_FALSE,
@@ -104,7 +108,7 @@ void GBufferBridge::carry(const GBufferTargets& targets, std::vector<PlaneCopy> 
 
 GBuffer GBufferBridge::transfer(const GBufferTargets& targets, const GBufferNeeds& needs,
                                 const View& view, int first_row) {
-    return in_stage(kGbufferBridgeStage, [&] {
+    return in_stage(kGBufferBridgeStage, [&] {
         GBuffer out;
         out.layout = make_gbuffer_layout(needs, view.stride, view.height);
         out.view = view;
@@ -123,7 +127,7 @@ GBuffer GBufferBridge::transfer(const GBufferTargets& targets, const GBufferNeed
 
 DeviceArray<uint> GBufferBridge::transfer_ids(const GBufferTargets& targets, const View& view,
                                               int first_row) {
-    return in_stage(kGbufferBridgeStage, [&] {
+    return in_stage(kGBufferBridgeStage, [&] {
         const std::size_t count = std::size_t{view.stride} * view.height;
         std::vector<PlaneCopy> planes;
         planes.push_back({targets.reads().front(), 0, count * sizeof(uint), Fence()});

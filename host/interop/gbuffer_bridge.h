@@ -9,10 +9,17 @@
 #include "host/gpu/device.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/memory/pinned_memory.h"
+#include "host/gpu/stage_info.h"
 #include "raster/gbuffer_targets.h"
 #include "raster/gl_object.h"
 
 namespace kilolux {
+
+/// Brings what OpenGL drew to the device: by a copy, or, where the device has its own memory, by an
+/// upload.
+StageWork bridge_work(const StageCounts& counts);
+inline constexpr StageInfo kGBufferBridgeStage = {"gbuffer_bridge", StageGroup::surfaces,
+                                                  bridge_work, true};
 
 /// Carries what OpenGL drew to OpenCL: a G-buffer's planes, or triangle ids, in one buffer.
 ///

@@ -7,6 +7,7 @@
 #include "host/lighting/light_lists.h"
 #include "host/stages/shading/shade.h"
 #include "host/stages/shadows/cast_shadows.h"
+#include "host/stages/shadows/draw_shadows.h"
 
 namespace kilolux {
 

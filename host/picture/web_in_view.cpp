@@ -22,7 +22,7 @@ std::vector<WebInView> webs_in_view(std::span<const AimedProfile> rows, const Sc
     for (const AimedProfile& row : rows) {
         WebInView& view = out.emplace_back();
         if (!has_web(row)) continue;
-        const auto web = std::ranges::lower_bound(starts, row.down.w) - starts.begin();
+        const auto web = std::ranges::lower_bound(starts, web_start(row)) - starts.begin();
         view = {&scene.webs[static_cast<std::size_t>(web)],
                 {row.down.x, row.down.y, row.down.z},
                 {row.side.x, row.side.y, row.side.z},

@@ -22,11 +22,14 @@ std::optional<FillBackground> make_background(const RenderContext& context,
     return out;
 }
 
+ReflectionMapsView view_of(const PrefilteredEnvironment& maps) {
+    return {maps.texels, maps.levels, maps.table, maps.table_size};
+}
+
 std::optional<ReflectEnvironment> make_reflections(const RenderContext& context) {
     if (!context.settings.reflections) return {};
-    const PrefilteredEnvironment& maps = *context.settings.reflections;
     ReflectEnvironment out(context.gpu, context.tuning, context.plan.kernels);
-    out.set_maps({maps.texels, maps.levels, maps.table, maps.table_size});
+    out.set_maps(view_of(*context.settings.reflections));
     return out;
 }
 
@@ -44,6 +47,11 @@ Backdrop backdrop_of(const RenderSettings& settings) {
         out.code |= static_cast<uint>(std::lround(255.0 * linear_to_srgb(shown[c]))) << (8 * c);
     }
     return out;
+}
+
+std::uint64_t EnvironmentLight::device_bytes(const RenderSettings& settings) {
+    return (settings.background ? FillBackground::bytes(settings.background->rows.size()) : 0) +
+           (settings.reflections ? view_of(*settings.reflections).bytes() : 0);
 }
 
 void EnvironmentLight::set(const RenderContext& context) {

@@ -17,6 +17,8 @@ Backdrop backdrop_of(const RenderSettings& settings);
 /// Adds an environment to lit surfaces: its reflections, and the environment behind them.
 class EnvironmentLight {
  public:
+    static std::uint64_t device_bytes(const RenderSettings& settings);
+
     /// Takes over settings.background and settings.reflections where they changed. Throws Error;
     /// the part that failed then keeps its former value.
     void set(const RenderContext& context);

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/render/forward_shading.h"
 
-#include "host/render/host_stages.h"
+#include "host/stages/shading/instruction_counts.h"
 
 namespace kilolux {
+
+StageWork forward_work(const StageCounts& c) {
+    return {.bytes_written = kRadianceBytes * c.pixels,
+            .instructions = shading_instructions(c),
+            .evaluations = full_evaluations(c)};
+}
 
 ForwardFeatures forward_features(const ScenePlan& plan, bool clustered, bool opaque) {
     ForwardFeatures features;

@@ -8,6 +8,13 @@
 
 namespace kilolux {
 
+/// The fragments of the forward renderers. Their evaluations are those of all fragments, hidden
+/// ones too.
+StageWork forward_work(const StageCounts& counts);
+inline constexpr StageInfo kForwardStage = {"forward", StageGroup::shading, forward_work};
+inline constexpr StageInfo kForwardPlusStage = {"forward_plus", StageGroup::shading, forward_work};
+inline constexpr StageInfo kBlendedStage = {"blended", StageGroup::picture};
+
 /// The features that forward shading compiles in for a plan. `opaque`: see ForwardFeatures.
 ForwardFeatures forward_features(const ScenePlan& plan, bool clustered, bool opaque);
 

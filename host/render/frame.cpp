@@ -11,7 +11,6 @@
 #include "host/picture/frame_bands.h"
 #include "host/picture/sample_pattern.h"
 #include "host/picture/views.h"
-#include "host/render/host_stages.h"
 
 namespace kilolux {
 namespace {

@@ -9,6 +9,10 @@
 
 namespace kilolux {
 
+/// Makes the host's memory of a frame.
+inline constexpr StageInfo kAllocateStage = {"allocate", StageGroup::host};
+inline constexpr StageInfo kLightInputStage = {"light_input", StageGroup::lights};
+
 /// What a frame shows, and how many of its samples are made.
 struct Shot {
     Camera camera;

@@ -31,8 +31,7 @@ void add_lights(Pipeline& pipeline, PixelProbe& probe) {
         light.light = rows.local.at(light.index);
         light.shade = shade_light(view, light.light, light.index, tail_seed(settings, 0));
         if (rows.profiles.empty()) continue;
-        AimedProfile row = rows.profiles.at(light.index);
-        row = {rotated(view, row.down, row.down.w), rotated(view, row.side, row.side.w)};
+        const AimedProfile row = aimed_in_view(view, rows.profiles.at(light.index));
         light.web = webs_in_view(std::span(&row, 1), pipeline.context.scene->scene()).front();
     }
 }

@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "host/base/log.h"
-#include "host/render/host_stages.h"
 
 namespace kilolux {
 namespace {

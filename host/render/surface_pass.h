@@ -14,6 +14,9 @@
 
 namespace kilolux {
 
+inline constexpr StageInfo kGeometryStage = {"geometry", StageGroup::surfaces};
+inline constexpr StageInfo kShadowSceneStage = {"shadow_scene", StageGroup::shadows};
+
 /// The scene's surfaces in a G-buffer on the OpenCL device: OpenGL or OpenCL draws triangle ids
 /// that OpenCL resolves, or OpenGL the planes themselves (RenderSettings::geometry).
 class SurfacePass {

@@ -11,9 +11,8 @@
 
 // From radiance to codes, beside TONE_CURVE.
 typedef struct DisplayCurve {
-    float gain;                           // 2^exposure
-    global const float* bucket_boundary;  // [SRGB_BUCKETS]
-    global const uint* bucket_code;       // [SRGB_BUCKETS]
+    float gain;  // 2^exposure
+    SrgbTable table;
 } DisplayCurve;
 
 // NaN and negative light are black and infinite light is white: tone curves do not see them.
@@ -24,9 +23,9 @@ static inline UV display_codes(DisplayCurve by, FV3 radiance) {
     FV3 c = fv3(displayable(radiance.x * by.gain), displayable(radiance.y * by.gain),
                 displayable(radiance.z * by.gain));
     c = tone_curve_of(TONE_CURVE, c);
-    UV r = srgb_code(by.bucket_boundary, by.bucket_code, c.x);
-    UV g = srgb_code(by.bucket_boundary, by.bucket_code, c.y);
-    UV b = srgb_code(by.bucket_boundary, by.bucket_code, c.z);
+    UV r = srgb_code(by.table, c.x);
+    UV g = srgb_code(by.table, c.y);
+    UV b = srgb_code(by.table, c.z);
     return r | (g << 8) | (b << 16) | 0xff000000u;
 }
 #endif

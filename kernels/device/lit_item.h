@@ -47,26 +47,10 @@ static inline LitItem lit_item(GBuffer g, Pixels pixels) {
     return item;
 }
 
-// The first pixel of a work-item and its tile. A work-item below the planes has none.
-typedef struct ItemPlace {
-    uint x, y;
-    bool inside;
-    uint tile;
-} ItemPlace;
-
-static inline ItemPlace place_in_planes(View view) {
-    ItemPlace at;
-    at.x = (uint)get_global_id(0) * VW;
-    at.y = get_global_id(1);
-    at.inside = at.y < view.height;
-    at.tile = fine_tile_of(view, at.x, at.y);
-    return at;
-}
-
 // lit_item() with the fine slices by which clusters are found.
-static inline LitItem clustered_item(GBuffer g, Clusters from, Pixels pixels) {
+static inline LitItem clustered_item(GBuffer g, ClusterGrid grid, Pixels pixels) {
     LitItem item = lit_item(g, pixels);
-    item.slice = fine_slice_of_depth(from.grid, item.z);
+    item.slice = fine_slice_of_depth(grid, item.z);
     return item;
 }
 
@@ -75,15 +59,29 @@ static inline MASK lanes_in_cluster(LitItem item, Clusters from, uint i) {
     return lane_mask(item.slice == (UV)(from.clusters[i].slice)) & item.shown;
 }
 
-#if ORDERED_PIXELS
-// The item's pixels in the order of its tile's clusters; `any` is also false without clusters.
-static inline LitItem ordered_item(GBuffer g, Clusters from, ItemPlace at) {
-    if (!at.inside || !has_clusters(from, at.tile)) {
-        LitItem none;
-        none.any = false;
-        return none;
-    }
-    return clustered_item(g, from, pixels_of_item(g.view, at.x, at.y, from.order));
-}
-#endif
+// FOR_EACH_CLUSTER() of those that hold lanes of the item: `mine`.
+#define FOR_EACH_CLUSTER_OF(item, i, mine, from, tile) \
+    FOR_EACH_CLUSTER(i, from, tile)                    \
+    for (MASK mine = lanes_in_cluster(item, from, i); lane_any(mine); mine = (MASK)(0))
+
+// How kernels of lit pixels begin: they declare what their parameters make. The G-buffer `g`, the
+// work-item's place `at` and its `item` of pixels of a row; work-items below the planes end.
+#define BEGIN_ROW                         \
+    GBuffer g = GBUFFER_OF_ARGS;          \
+    ItemPlace at = place_in_planes(view); \
+    if (!at.inside) return;               \
+    LitItem item = lit_item(g, row_pixels(view, at.x, at.y))
+// The same with the clusters `active`.
+#define BEGIN_CLUSTERED_ROW             \
+    BEGIN_ROW;                          \
+    Clusters active = CLUSTERS_OF_ARGS; \
+    item.slice = fine_slice_of_depth(grid, item.z)
+// The same of pixels in the order of the tile's clusters; work-items without a surface end, too.
+#define BEGIN_ORDERED_ITEM                                                           \
+    GBuffer g = GBUFFER_OF_ARGS;                                                     \
+    Clusters active = CLUSTERS_OF_ARGS;                                              \
+    ItemPlace at = place_in_planes(view);                                            \
+    if (!at.inside || !has_clusters(active, at.tile)) return;                        \
+    LitItem item = clustered_item(g, grid, pixels_of_item(view, at.x, at.y, order)); \
+    if (!item.any) return
 #endif

@@ -94,6 +94,22 @@ static inline Pixels pixels_of_item(View view, uint x, uint y, global const ucha
 }
 #endif
 
+// The first pixel of a work-item and its tile. A work-item below the planes has none.
+typedef struct ItemPlace {
+    uint x, y;
+    bool inside;
+    uint tile;
+} ItemPlace;
+
+static inline ItemPlace place_in_planes(View view) {
+    ItemPlace at;
+    at.x = (uint)get_global_id(0) * VW;
+    at.y = get_global_id(1);
+    at.inside = at.y < view.height;
+    at.tile = fine_tile_of(view, at.x, at.y);
+    return at;
+}
+
 static inline MASK within_width(View view, Pixels pixels) {
     return lane_mask(pixels.x < fv((float)view.width));
 }

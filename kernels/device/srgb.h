@@ -3,30 +3,31 @@
 #ifndef KILOLUX_DEVICE_SRGB_H
 #define KILOLUX_DEVICE_SRGB_H
 #include "kernels/device/lanes.h"
-#include "kernels/shared/tone_curve.h"
 
-// The sRGB code of linear v, correctly rounded: IEC 61966-2-1 by table, lane by lane.
-static inline UV srgb_code_by_table(global const float* bucket_boundary,
-                                    global const uint* bucket_code, FV v) {
-    // Below 2^-13 is code 0.
-    FV c = min(max(v, fv(bits_float(SRGB_FIRST_BITS))), fv(1.0f));
-    UV bucket = (lane_bits(c) - SRGB_FIRST_BITS) >> SRGB_BUCKET_SHIFT;
+// BUCKET_ARGS.
+typedef struct SrgbTable {
+    global const float* boundary;
+    global const uint* code;
+} SrgbTable;
+#define SRGB_TABLE_OF_ARGS ((SrgbTable){bucket_boundary, bucket_code})
+
 #if VW == 1
-    return bucket_code[bucket] + (c >= bucket_boundary[bucket] ? 1u : 0u);
+#define AT_BUCKETS(T, values, bucket) return (values)[bucket]
 #else
-    uint index[VW];
-    lane_store(bucket, index);
-    UV code = lane_gather(UV, bucket_code, index);
-    MASK above = c >= lane_gather(FV, bucket_boundary, index);
-    return code + (lane_bits(above) & 1u);
+#define AT_BUCKETS(T, values, bucket) \
+    uint index[VW];                   \
+    lane_store(bucket, index);        \
+    return lane_gather(T, values, index)
 #endif
-}
+static inline FV boundary_of(SrgbTable table, UV bucket) { AT_BUCKETS(FV, table.boundary, bucket); }
+static inline UV code_of(SrgbTable table, UV bucket) { AT_BUCKETS(UV, table.code, bucket); }
 
-// The same by arithmetic in all lanes at once: 255 (1.055 c^(1/2.4) - 0.055) + 0.5 as a polynomial
+#include "kernels/shared/srgb_code.h"
+
+// The code by arithmetic in all lanes at once: 255 (1.055 c^(1/2.4) - 0.055) + 0.5 as a polynomial
 // in c^(1/4), minimax on [0.0031, 1], error 3.7e-4. The lanes use the table only where a value lies
 // within 1/1024 of a code's boundary, which is more than that error and float's rounding (1e-4).
-static inline UV srgb_code(global const float* bucket_boundary, global const uint* bucket_code,
-                           FV v) {
+static inline UV srgb_code(SrgbTable table, FV v) {
     FV c = min(max(v, fv(bits_float(SRGB_FIRST_BITS))), fv(1.0f));
     FV u = lane_sqrt(lane_sqrt(c));
     FV curve = fma(u, fv(17.4495867f), fv(-81.4141021f));
@@ -40,7 +41,7 @@ static inline UV srgb_code(global const float* bucket_boundary, global const uin
     IV code = lane_to_int(code_and_rest);
     FV from_middle = (code_and_rest - lane_to_float(code)) - fv(0.5f);
     if (lane_any(max(from_middle, -from_middle) > fv(0.5f - 1.0f / 1024.0f))) {
-        return srgb_code_by_table(bucket_boundary, bucket_code, v);
+        return srgb_code_by_table(table, v);
     }
     return lane_bits(code);
 }

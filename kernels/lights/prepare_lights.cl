@@ -94,9 +94,8 @@ kernel void prepare_lights(global const Light* restrict own,  // camera-relative
         uint light = min(first + i, count - 1u);
         ShadeLight out = shade_light(view, own[light], light, seed);
         float4 p = out.position_inv_range2;
-        float range = fabs(own[light].position_range.w);
-        if (has_random_range(out)) range = sqrt(-1.0f / p.w);
-        p.w = fabs(p.w);
+        p.w = inv_range2_of(out);
+        float range = has_random_range(out) ? sqrt(1.0f / p.w) : range_of(own[light]);
         lights[light] = out;
         bounds[light] = p;
         x[i] = p.x;
@@ -133,7 +132,6 @@ kernel void aim_profiles(global const AimedProfile* restrict profiles,  // [coun
                          global AimedProfile* restrict out) {  // out [count], view space
     uint light = get_global_id(0);
     if (light >= count) return;
-    out[light].down = rotated(view, profiles[light].down, profiles[light].down.w);
-    out[light].side = rotated(view, profiles[light].side, profiles[light].side.w);
+    out[light] = aimed_in_view(view, profiles[light]);
 }
 #endif

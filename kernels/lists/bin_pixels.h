@@ -23,11 +23,9 @@
 
 // Slices of pixels, and their depths `z` [m], undefined where there is no slice.
 static inline UV slices_of_pixels(GBuffer g, ClusterGrid grid, Pixels pixels, FV* z) {
-    FV depth01 = load_depth01(g, pixels);
-    *z = view_depth(g.view, pixels.x, pixels.y, depth01);
-    UV slice = fine_slice_of_depth(grid, *z);
-    MASK shown = lane_mask(depth01 > fv(BACKGROUND_DEPTH)) & within_width(g.view, pixels);
-    return select((UV)(NO_SLICE), slice, shown);
+    LitItem item = clustered_item(g, grid, pixels);
+    *z = item.z;
+    return select((UV)(NO_SLICE), item.slice, item.shown);
 }
 
 static inline Pixels strip_pixels(View view, uint tile_x, uint tile_y, uint strip) {

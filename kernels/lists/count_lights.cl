@@ -19,18 +19,12 @@ static inline UV count_covering(FV3 p, global const float4* bounds, global const
 kernel void count_lights(LIT_ARGS,
                          global uint* restrict evaluated,   // out [height][stride]
                          global uint* restrict covering) {  // likewise; ~0 for background
-    GBuffer g = GBUFFER_OF_ARGS;
-    Clusters active = CLUSTERS_OF_ARGS;
-    ItemPlace at = place_in_planes(view);
-    if (!at.inside) return;
-    LitItem item = clustered_item(g, active, row_pixels(view, at.x, at.y));
+    BEGIN_CLUSTERED_ROW;
     UV k = (UV)(~0u);
     UV k_star = (UV)(~0u);
     if (item.any) {
         FV3 p = load_position(g, item.pixels, item.z);
-        FOR_EACH_CLUSTER(i, active, at.tile) {
-            MASK mine = lanes_in_cluster(item, active, i);
-            if (!lane_any(mine)) continue;
+        FOR_EACH_CLUSTER_OF(item, i, mine, active, at.tile) {
             uint count = clusters[i].list_count;
             k = select(k, (UV)(count), lane_bits(mine));
             k_star =

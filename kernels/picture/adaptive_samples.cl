@@ -11,7 +11,7 @@
 // A half's state: planes of its mean (3), and of the running mean and the sum of squared deviations
 // of its luminance (Welford 1962), which continue after the mean has stopped.
 #include "kernels/device/luminance.h"
-#include "kernels/shared/cluster_grid.h"
+#include "kernels/device/pixels.h"
 
 #define STATE_PLANES 5
 
@@ -28,19 +28,17 @@ kernel void adaptive_samples_add(View view, uint h, uint n,
                                  global const float* restrict radiance,  // [3][height][stride]
                                  global const uint* restrict fixed,      // [2][tiles]
                                  global float* restrict state) {  // in, out [2][5][height][stride]
-    uint x = (uint)get_global_id(0) * VW;
-    uint y = get_global_id(1);
-    if (y >= view.height || x >= view.width) return;
-    uint tile = fine_tile_of(view, x, y);
+    ItemPlace at = place_in_planes(view);
+    if (!at.inside || at.x >= view.width) return;
     uint tiles = fine_tile_count(view);
-    if (fixed[tile] != 0 && fixed[tiles + tile] != 0) return;
+    if (fixed[at.tile] != 0 && fixed[tiles + at.tile] != 0) return;
     uint plane = view.stride * view.height;
-    uint pixel = y * view.stride + x;
+    uint pixel = at.y * view.stride + at.x;
     bool is_first = n == 1;
     FV light[3];
     for (uint c = 0; c < 3; ++c) light[c] = lane_load(radiance + c * plane + pixel);
     global float* half_state = state + h * STATE_PLANES * plane + pixel;
-    if (fixed[h * tiles + tile] == 0) {
+    if (fixed[h * tiles + at.tile] == 0) {
         for (uint c = 0; c < 3; ++c) {
             global float* mean = half_state + c * plane;
             lane_store(is_first ? light[c] : mean_with(lane_load(mean), light[c], (float)n), mean);
@@ -100,19 +98,17 @@ kernel void adaptive_samples_mean(View view, uint n, global const float* restric
                                   global const uint* restrict fixed,
                                   global float* restrict mean,        // out [3][height][stride]
                                   global float* restrict variance) {  // out [height][stride]
-    uint x = (uint)get_global_id(0) * VW;
-    uint y = get_global_id(1);
-    if (y >= view.height || x >= view.width) return;
-    uint tile = fine_tile_of(view, x, y);
+    ItemPlace at = place_in_planes(view);
+    if (!at.inside || at.x >= view.width) return;
     uint tiles = fine_tile_count(view);
     uint plane = view.stride * view.height;
-    uint pixel = y * view.stride + x;
+    uint pixel = at.y * view.stride + at.x;
     global const float* other_half = state + STATE_PLANES * plane;
     for (uint c = 0; c < 3; ++c) {
         FV sum = lane_load(state + c * plane + pixel) + lane_load(other_half + c * plane + pixel);
         lane_store(0.5f * sum, mean + c * plane + pixel);
     }
-    uint counts[2] = {fixed[tile], fixed[tiles + tile]};
+    uint counts[2] = {fixed[at.tile], fixed[tiles + at.tile]};
     float taken = (float)(counts[0] == 0 || counts[1] == 0 ? n : max(counts[0], counts[1]));
     FV sum = fv(0.0f);
     for (uint h = 0; h < 2; ++h) {

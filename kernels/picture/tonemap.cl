@@ -10,7 +10,7 @@ kernel void tonemap(global const float* restrict radiance,  // [3][height][strid
                     uint backdrop_code, DISPLAY_ARGS) {
     uint pixel = (uint)get_global_id(0) * VW;
     if (pixel >= pixel_count) return;
-    DisplayCurve curve = {gain, bucket_boundary, bucket_code};
+    DisplayCurve curve = {gain, SRGB_TABLE_OF_ARGS};
     FV3 c = fv3(lane_load(radiance + pixel), lane_load(radiance + pixel_count + pixel),
                 lane_load(radiance + 2 * pixel_count + pixel));
     MASK shown = is_backdrop(c, fv3(fv(backdrop.x), fv(backdrop.y), fv(backdrop.z)));

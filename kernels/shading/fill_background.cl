@@ -21,7 +21,7 @@ kernel void fill_background(GBUFFER_ARGS,
     Pixels pixels = row_pixels(view, at.x, at.y);
     MASK open = within_width(view, pixels);
     if (everywhere == 0u) {
-        open &= lane_mask(load_depth01(GBUFFER_OF_ARGS, pixels) == fv(0.0f));
+        open &= lane_mask(load_depth01(GBUFFER_OF_ARGS, pixels) == fv(BACKGROUND_DEPTH));
     }
     if (!lane_any(open)) return;
     MapTexels t = texels_towards(ray_direction(view, pixels), size);

@@ -20,7 +20,7 @@ typedef struct LightTarget {
 } LightTarget;
 
 #if DISPLAYED
-#define LIGHT_TARGET_OF_ARGS ((LightTarget){display, {gain, bucket_boundary, bucket_code}})
+#define LIGHT_TARGET_OF_ARGS ((LightTarget){display, {gain, SRGB_TABLE_OF_ARGS}})
 #else
 #define LIGHT_TARGET_OF_ARGS ((LightTarget){radiance})
 #endif

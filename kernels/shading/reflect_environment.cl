@@ -109,10 +109,7 @@ static inline FV3 reflected(ReflectionMaps maps, View view, Surface s, FV3 irrad
 
 kernel void reflect_environment(GBUFFER_ARGS, REFLECTION_ARGS,
                                 global float* restrict radiance) {  // in, out [3][height][stride]
-    GBuffer g = GBUFFER_OF_ARGS;
-    ItemPlace at = place_in_planes(view);
-    if (!at.inside) return;
-    LitItem item = lit_item(g, row_pixels(view, at.x, at.y));
+    BEGIN_ROW;
     if (!item.any) return;
     Pixels pixels = item.pixels;
     MASK shown = item.shown;

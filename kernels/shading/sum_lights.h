@@ -26,10 +26,7 @@
 #elif SHADOWS == SHADOWS_RAYS
 #include "kernels/shadows/shadow_rays.h"
 #endif
-
-#if SAMPLED_SHADOWS
 #include "kernels/shadows/shadow_pick.h"
-#endif
 
 #ifndef ALL_LIGHTS
 #define ALL_LIGHTS 0
@@ -61,6 +58,18 @@ typedef struct LightSet {
     LightProfiles profiles;
 #endif
 } LightSet;
+
+// Declares the set of a kernel's arguments, and the local memory in which it stages lights.
+#if STAGE > 0
+#define LIGHT_SET_OF_ARGS(set)                                        \
+    local ShadeLight staged_lights[STAGE];                            \
+    local uint staged_indices[STAGE];                                 \
+    LightSet set = light_set(lights, aimed_profiles, profile_tables); \
+    set.staged = staged_lights;                                       \
+    set.staged_indices = staged_indices
+#else
+#define LIGHT_SET_OF_ARGS(set) LightSet set = light_set(lights, aimed_profiles, profile_tables)
+#endif
 
 static inline LightSet light_set(global const StoredLight* lights,
                                  global const AimedProfile* profiles, global const float* tables) {

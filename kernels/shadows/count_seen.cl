@@ -43,17 +43,11 @@ static inline SeenLights count_list(SeenLights sum, FV3 p, FV3 n, global const f
 kernel void count_seen(LIT_ARGS, WORD_ARGS(const),
                        global uint* restrict facing,  // out [height][stride]; background is left
                        global uint* restrict seen) {  // out, likewise
-    GBuffer g = GBUFFER_OF_ARGS;
-    Clusters active = CLUSTERS_OF_ARGS;
-    ItemPlace at = place_in_planes(view);
-    LitItem item = ordered_item(g, active, at);
-    if (!item.any) return;
+    BEGIN_ORDERED_ITEM;
     FV3 p = load_position(g, item.pixels, item.z);
     FV3 n = load_normal(g, item.pixels);
     SeenLights out = {(UV)(0u), (UV)(0u)};
-    FOR_EACH_CLUSTER(i, active, at.tile) {
-        MASK mine = lanes_in_cluster(item, active, i);
-        if (!lane_any(mine)) continue;
+    FOR_EACH_CLUSTER_OF(item, i, mine, active, at.tile) {
         ShadowBits bits =
             bits_of_cluster(words + word_offsets[at.tile], clusters + i, place_of_item(at.x, at.y));
         SeenLights sum = count_directional(n, directional_lights, directional_count, bits);

@@ -22,20 +22,14 @@ static inline void put_bits(ShadowBits bits, uint i, MASK picked, global uint* w
 }
 
 kernel void draw_shadows(LIT_ARGS, WORD_ARGS(), SAMPLE_ARGS) {
-    GBuffer g = GBUFFER_OF_ARGS;
-    Clusters active = CLUSTERS_OF_ARGS;
-    ItemPlace at = place_in_planes(view);
-    LitItem item = ordered_item(g, active, at);
-    if (!item.any) return;
+    BEGIN_ORDERED_ITEM;
     Surface s = load_surface(g, item.pixels, item.z);
     ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
-    ShadowPick pick = make_pick(s, whole, view, item.pixels, at.x, at.y, rays, seed);
+    ShadowPick pick = make_pick(s, SAMPLES_OF_ARGS, view, item.pixels, at);
 #if HAS_LIGHT_PROFILES
     LightProfiles profiles = {aimed_profiles, profile_tables};
 #endif
-    FOR_EACH_CLUSTER(i, active, at.tile) {
-        MASK mine = lanes_in_cluster(item, active, i);
-        if (!lane_any(mine)) continue;
+    FOR_EACH_CLUSTER_OF(item, i, mine, active, at.tile) {
         ShadowBits bits =
             bits_of_cluster(words + word_offsets[at.tile], clusters + i, place_of_item(at.x, at.y));
 #if HAS_DIRECTIONAL_LIGHTS

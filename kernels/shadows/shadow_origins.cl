@@ -52,15 +52,11 @@ kernel void shadow_origins(
     GBUFFER_ARGS, ShadowView shadow, SCENE_ARGS,
     global const float* restrict casters,  // [caster_count][3][3], shadow space
     global float* restrict origins) {      // out [ORIGIN_PLANES][height][stride]
-    ItemPlace at = place_in_planes(view);
-    if (!at.inside) return;
-    Pixels pixels = row_pixels(view, at.x, at.y);
-    UV id = lane_load(ids + pixels.first);
-    MASK shown = lane_mask(id != (UV)(0u)) & within_width(view, pixels);
+    BEGIN_ROW;
+    UV id = lane_load(ids + item.pixels.first);
+    MASK shown = lane_mask(id != (UV)(0u)) & item.shown;
     if (!lane_any(shown)) return;
-    GBuffer g = GBUFFER_OF_ARGS;
-    FV depth01 = lane_select(shown, load_depth01(g, pixels), fv(1.0f));
-    FV3 v = load_position(g, pixels, view_depth(view, pixels.x, pixels.y, depth01));
+    FV3 v = load_position(g, item.pixels, item.z);
     FV3 p = fv3(lane_shadow_row(shadow.shadow_from_view[0], v),
                 lane_shadow_row(shadow.shadow_from_view[1], v),
                 lane_shadow_row(shadow.shadow_from_view[2], v));
@@ -86,8 +82,8 @@ kernel void shadow_origins(
         left &= ~mask;
     }
     uint plane = view.stride * view.height;
-    lane_store(out.x, origins + ORIGIN_X * plane + pixels.first);
-    lane_store(out.y, origins + ORIGIN_Y * plane + pixels.first);
-    lane_store(out.z, origins + ORIGIN_Z * plane + pixels.first);
-    lane_store(packed_normal(normal), origins + ORIGIN_NORMAL * plane + pixels.first);
+    lane_store(out.x, origins + ORIGIN_X * plane + item.pixels.first);
+    lane_store(out.y, origins + ORIGIN_Y * plane + item.pixels.first);
+    lane_store(out.z, origins + ORIGIN_Z * plane + item.pixels.first);
+    lane_store(packed_normal(normal), origins + ORIGIN_NORMAL * plane + item.pixels.first);
 }

@@ -28,17 +28,24 @@ typedef struct ShadowPick {
     uint tile;        // a hash of the fine tile of the picture, and the seed
 } ShadowPick;
 
-// The inputs of the pixels of the work-item at (x, y) of the planes. `radiance`: if all lights are
-// seen.
-static inline ShadowPick make_pick(Surface s, global const float* radiance, View view,
-                                   Pixels pixels, uint x, uint y, float rays, uint seed) {
+// SAMPLE_ARGS.
+typedef struct ShadowSamples {
+    global const float* whole;
+    float rays;
+    uint seed;
+} ShadowSamples;
+#define SAMPLES_OF_ARGS ((ShadowSamples){whole, rays, seed})
+
+// The inputs of the pixels of the work-item at `at`.
+static inline ShadowPick make_pick(Surface s, ShadowSamples samples, View view, Pixels pixels,
+                                   ItemPlace at) {
     ShadowPick out;
     out.surface = s;
     out.surface.emissive = zero3();
-    out.whole = luminance(load_radiance(radiance, view, pixels));
-    out.rays = rays;
-    uint tile_y = (y + view.first_row) / FINE_TILE;
-    out.tile = hash_of(hash_of(hash_of(seed) ^ x / FINE_TILE) ^ tile_y);
+    out.whole = luminance(load_radiance(samples.whole, view, pixels));
+    out.rays = samples.rays;
+    uint tile_y = (at.y + view.first_row) / FINE_TILE;
+    out.tile = hash_of(hash_of(hash_of(samples.seed) ^ at.x / FINE_TILE) ^ tile_y);
     return out;
 }
 

@@ -43,7 +43,7 @@ SHARED_STRUCT(ShadeLight) {
 };
 SHARED_ASSERT(shade_light_size, sizeof(ShadeLight) == 48);
 
-// Whether the range is a random one: inv_range2_of() of light_transform.h.
+// Whether the range is a random one: chosen_inv_range2() of light_transform.h.
 SHARED_FN bool has_random_range(ShadeLight light) { return light.position_inv_range2.w < 0.0f; }
 
 // A directional light: parallel, never culled.

@@ -41,8 +41,11 @@ SHARED_STRUCT(AimedProfile) {
 };
 SHARED_ASSERT(aimed_profile_size, sizeof(AimedProfile) == 32);
 
+// The first float of its web's table, or NO_WEB.
+SHARED_FN float web_start(AimedProfile aim) { return aim.down.w; }
+
 // Whether the light has a web; without one it sends its intensity all around.
-SHARED_FN bool has_web(AimedProfile aim) { return aim.down.w != NO_WEB; }
+SHARED_FN bool has_web(AimedProfile aim) { return web_start(aim) != NO_WEB; }
 
 // 1, or -1 if the light's node mirrors its web.
 SHARED_FN float web_handedness(AimedProfile aim) { return aim.side.w; }
@@ -131,7 +134,7 @@ SHARED_FN FV profile_share(LightProfiles from, uint light, FV3 to_light) {
     FV along = -dot3(to_light, down);
     FV x = -dot3(to_light, side);
     FV y = -dot3(to_light, cross3(side, down)) * fv(web_handedness(aim));
-    uint head = uint_of(aim.down.w);
+    uint head = uint_of(web_start(aim));
     float first = profile_head(from, head);
     float per_radian = profile_head(from, head + 1u);
     float last_row = profile_head(from, head + 2u);

@@ -4,6 +4,7 @@
 #define KILOLUX_SHARED_LIGHT_TRANSFORM_H
 #include "kernels/shared/hash.h"
 #include "kernels/shared/light.h"
+#include "kernels/shared/light_profile.h"
 #include "kernels/shared/view.h"
 
 // Largest 1/range^2 [1/m^2]: a range below 1e-19 m must not become infinity times 0.
@@ -23,12 +24,21 @@ SHARED_FN float4 rotated(View view, float4 v, float w) {
                        rotate_row(view.view_from_world_z, v), w);
 }
 
-// 1/range^2 of light `index`. With a seed, lights without a range of their own get a random one,
-// r = r0 / sqrt(1 - random): so that a point at distance d > r0 is in range with probability
-// (r0 / d)^2 and can weigh the light by its reciprocal, unbiased (Tokuyoshi and Harada 2016,
-// "Stochastic Light Culling"). Beyond 4096 r0 none is chosen: 6e-8 of the probability.
-SHARED_FN float inv_range2_of(Light light, uint index, uint seed) {
-    float range = light.position_range.w;
+SHARED_FN float range_of(Light light) {
+    return max(light.position_range.w, -light.position_range.w);
+}
+
+// 1/range^2, of a random range, too [1/m^2].
+SHARED_FN float inv_range2_of(ShadeLight light) {
+    return max(light.position_inv_range2.w, -light.position_inv_range2.w);
+}
+
+// 1/range^2 of light `index`, negative if random. With a seed, lights without a range of their own
+// get a random one, r = r0 / sqrt(1 - random): so that a point at distance d > r0 is in range with
+// probability (r0 / d)^2 and can weigh the light by its reciprocal, unbiased (Tokuyoshi and Harada
+// 2016, "Stochastic Light Culling"). Beyond 4096 r0 none is chosen: 6e-8 of the probability.
+SHARED_FN float chosen_inv_range2(Light light, uint index, uint seed) {
+    float range = range_of(light);
     float inv = min(1.0f / (range * range), INV_RANGE2_MAX);
     if (seed == 0u || has_own_range(light)) return inv;
     return -inv * (1.0f - random_of(hash_of(hash_of(seed) ^ index)));
@@ -38,10 +48,17 @@ SHARED_FN float inv_range2_of(Light light, uint index, uint seed) {
 SHARED_FN ShadeLight shade_light(View view, Light light, uint index, uint seed) {
     ShadeLight local_light;
     local_light.position_inv_range2 =
-        rotated(view, light.position_range, inv_range2_of(light, index, seed));
+        rotated(view, light.position_range, chosen_inv_range2(light, index, seed));
     local_light.color_scale = light.color_scale;
     local_light.axis_cos = rotated(view, light.axis_cos, light.axis_cos.w);
     return local_light;
+}
+
+SHARED_FN AimedProfile aimed_in_view(View view, AimedProfile world) {
+    AimedProfile out;
+    out.down = rotated(view, world.down, world.down.w);
+    out.side = rotated(view, world.side, world.side.w);
+    return out;
 }
 
 #if defined(__cplusplus)

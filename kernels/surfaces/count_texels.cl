@@ -51,10 +51,9 @@ static inline UV texels_of_material(SurfaceScene scene, uint material, const Fra
 // ids: [height][stride], triangle + 1; 0 for background. counts: likewise.
 kernel void count_texels(global const uint* restrict ids, View view, SCENE_ARGS,
                          global uint* restrict counts) {
-    uint x = (uint)get_global_id(0) * VW;
-    uint y = get_global_id(1);
-    if (y >= view.height) return;
-    Pixels pixels = row_pixels(view, x, y);
+    ItemPlace at = place_in_planes(view);
+    if (!at.inside) return;
+    Pixels pixels = row_pixels(view, at.x, at.y);
     UV id = lane_load(ids + pixels.first);
     MASK shown = lane_mask(id != (UV)(0u)) & within_width(view, pixels);
     UV count = (UV)(0u);

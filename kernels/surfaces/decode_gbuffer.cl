@@ -26,10 +26,7 @@ static inline void store_vector(SurfacePlanes to, uint first_plane, FV3 value) {
 kernel void decode_gbuffer(GBUFFER_ARGS,
                            // out [SURFACE_PLANES(_WITH_SPECULAR)][height][stride]; 0 for background
                            global float* restrict planes) {
-    GBuffer g = GBUFFER_OF_ARGS;
-    ItemPlace at = place_in_planes(view);
-    if (!at.inside) return;
-    LitItem item = lit_item(g, row_pixels(view, at.x, at.y));
+    BEGIN_ROW;
     SurfacePlanes to = {planes, view.stride * view.height, item.pixels.first, item.shown};
     Surface s = load_surface(g, item.pixels, item.z);
     store_scalar(to, SURFACE_DEPTH, item.z);

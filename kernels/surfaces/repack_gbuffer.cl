@@ -6,6 +6,7 @@
 // NORMAL_FORMAT  0: 4x8 UNORM; 1: 2x16 UNORM, octahedral; 2: 4 floats
 // ALBEDO_FORMAT  0: 4x8 bits, sRGB; 1: 4 halves, linear. The 4th is the roughness
 // FROM_IMAGES    1: images of any format with these values
+#include "kernels/device/arguments.h"
 #include "kernels/device/gbuffer.h"
 #include "kernels/surfaces/store_gbuffer.h"
 
@@ -56,18 +57,16 @@ static inline uint normal_code(View view, float4 v, uint is_world) {
 }
 
 // depth: bits of a float or 24; it, normal and albedo are [height][pitch], pitch in pixels. invert:
-// 1: the depth plane holds 1 - d. world_normals: 0: they are in view space. roughness: below 0:
-// that of the albedo's 4th channel.
+// 1: the depth plane holds 1 - d. world_normals: 0: they are in view space. roughness: or
+// ROUGHNESS_OF_ALBEDO.
 #define SOURCE_ARGS                                                               \
     SOURCE(uint)                                                                  \
     depth, SOURCE(NORMAL) normal, SOURCE(ALBEDO) albedo, uint pitch, uint invert, \
         uint world_normals, float roughness
 
-// bucket_boundary, bucket_code: [SRGB_BUCKETS].
-kernel void repack_gbuffer(SOURCE_ARGS, GBufferLayout layout, View view,
-                           global const float* restrict bucket_boundary,
-                           global const uint* restrict bucket_code,
+kernel void repack_gbuffer(SOURCE_ARGS, GBufferLayout layout, View view, BUCKET_ARGS,
                            global uchar* restrict gbuffer) {
+    SrgbTable table = SRGB_TABLE_OF_ARGS;
     uint place = get_global_id(0);
     if (place >= view.stride * view.height) return;
     uint x = place % view.stride;
@@ -103,14 +102,12 @@ kernel void repack_gbuffer(SOURCE_ARGS, GBufferLayout layout, View view,
         float4 color = vload_half4(at, albedo);
 #endif
 #endif
-        float rough = roughness < 0.0f ? color.w : roughness;
+        float rough = roughness == ROUGHNESS_OF_ALBEDO ? color.w : roughness;
 #if ALBEDO_FORMAT == 0
         albedo_word = pack_linear(fv3(color.x, color.y, color.z), unorm_code(rough, 255.0f));
 #else
-        albedo_word =
-            pack_color(srgb_code(bucket_boundary, bucket_code, color.x),
-                       srgb_code(bucket_boundary, bucket_code, color.y),
-                       srgb_code(bucket_boundary, bucket_code, color.z), unorm_code(rough, 255.0f));
+        albedo_word = pack_color(srgb_code(table, color.x), srgb_code(table, color.y),
+                                 srgb_code(table, color.z), unorm_code(rough, 255.0f));
 #endif
     }
     bool shown = depth01 > BACKGROUND_DEPTH;

@@ -21,7 +21,7 @@ kernel void resolve_surfaces(
     Pixels pixels = block_pixels(view, x, y);
     UV id = load_block(ids + pixels.first, pixels, view.stride);
     MASK shown = lane_mask(id != (UV)(0u)) & within_picture(view, pixels);
-    GBufferTarget to = {gbuffer, layout, view, bucket_boundary, bucket_code, pixels, shown};
+    GBufferTarget to = {gbuffer, layout, view, SRGB_TABLE_OF_ARGS, pixels, shown};
     if (!lane_any(shown)) {
         store_surface(to, background_surface(), fv(1.0f));
         return;

@@ -14,8 +14,7 @@ typedef struct GBufferTarget {
     global uchar* bytes;
     GBufferLayout layout;
     View view;
-    global const float* bucket_boundary;  // [SRGB_BUCKETS]
-    global const uint* bucket_code;       // [SRGB_BUCKETS]
+    SrgbTable table;
     Pixels pixels;
     MASK shown;  // other pixels become 0 in every plane
 } GBufferTarget;
@@ -70,7 +69,7 @@ static inline void store_plane_row(GBufferTarget to, uint plane, FV x, FV y, FV 
 #endif
 
 #define emissive_scale_of(to) (to).layout.emissive_scale
-#define encode_srgb(to, v) srgb_code((to).bucket_boundary, (to).bucket_code, v)
+#define encode_srgb(to, v) srgb_code((to).table, v)
 
 #include "kernels/shared/store.h"
 #endif

@@ -50,10 +50,7 @@ static inline float radiance_bound(Surface s, ShadingPoint p, float albedo, floa
 kernel void tail_bound(GBUFFER_ARGS, ClusterGrid grid,
                        global const float* restrict moments,  // [cluster_count][TAIL_ROWS]
                        global float* restrict bound) {        // out [3][height][stride]
-    GBuffer g = GBUFFER_OF_ARGS;
-    ItemPlace at = place_in_planes(view);
-    if (!at.inside) return;
-    LitItem item = lit_item(g, row_pixels(view, at.x, at.y));
+    BEGIN_ROW;
     if (!item.any) {
         store_radiance(bound, view, item.pixels, zero3());
         return;

@@ -32,16 +32,12 @@ static inline FV seen_share(ShadowPick pick, ShadowBits bits, uint i, FV alone) 
 
 kernel void tail_variance(LIT_ARGS, WORD_ARGS(const), SAMPLE_ARGS,
                           global float* restrict variance) {  // in/out [height][stride]
-    GBuffer g = GBUFFER_OF_ARGS;
-    Clusters active = CLUSTERS_OF_ARGS;
-    ItemPlace at = place_in_planes(view);
-    LitItem item = ordered_item(g, active, at);
-    if (!item.any) return;
+    BEGIN_ORDERED_ITEM;
     Surface s = load_surface(g, item.pixels, item.z);
     ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
     ShadowPick pick;
 #if SAMPLED_SHADOWS
-    pick = make_pick(s, whole, view, item.pixels, at.x, at.y, rays, seed);
+    pick = make_pick(s, SAMPLES_OF_ARGS, view, item.pixels, at);
 #endif
     pick.surface = s;
     pick.surface.emissive = zero3();
@@ -49,9 +45,7 @@ kernel void tail_variance(LIT_ARGS, WORD_ARGS(const), SAMPLE_ARGS,
     LightProfiles profiles = {aimed_profiles, profile_tables};
 #endif
     FV sum = fv(0.0f);
-    FOR_EACH_CLUSTER(i, active, at.tile) {
-        MASK mine = lanes_in_cluster(item, active, i);
-        if (!lane_any(mine)) continue;
+    FOR_EACH_CLUSTER_OF(item, i, mine, active, at.tile) {
         ShadowBits bits;
 #if SHADOWS
         bits =
@@ -60,8 +54,8 @@ kernel void tail_variance(LIT_ARGS, WORD_ARGS(const), SAMPLE_ARGS,
         for (uint j = 0; j < clusters[i].list_count; ++j) {
             uint index = lists[clusters[i].list_begin + j];
             ShadeLight light = LIGHT_AT(lights, index);
+            if (!has_random_range(light)) continue;
             float4 from = light.position_inv_range2;
-            if (from.w > 0.0f) continue;
             FV3 v = fv3(fv(from.x) - p.position.x, fv(from.y) - p.position.y,
                         fv(from.z) - p.position.z);
             LightSum one = EVALUATE(zero_sum(), p, light, profiles, index);

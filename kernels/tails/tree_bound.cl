@@ -91,11 +91,7 @@ static inline float radiance_error(Surface s, ShadingPoint p, float albedo, floa
 
 kernel void tree_bound(LIT_ARGS,
                        global float* restrict bound) {  // out [3][height][stride]
-    GBuffer g = GBUFFER_OF_ARGS;
-    Clusters active = CLUSTERS_OF_ARGS;
-    ItemPlace at = place_in_planes(view);
-    if (!at.inside) return;
-    LitItem item = clustered_item(g, active, row_pixels(view, at.x, at.y));
+    BEGIN_CLUSTERED_ROW;
     float out[3] = {0.0f, 0.0f, 0.0f};
     if (item.any) {
         Surface s = load_surface(g, item.pixels, item.z);
@@ -103,8 +99,7 @@ kernel void tree_bound(LIT_ARGS,
         FV3 f0 = mixed_f0(s, dielectric_f0(s));
         const float albedo[3] = {s.albedo.x, s.albedo.y, s.albedo.z};
         const float f0_of[3] = {f0.x, f0.y, f0.z};
-        FOR_EACH_CLUSTER(cluster, active, at.tile) {
-            if (!lane_any(lanes_in_cluster(item, active, cluster))) continue;
+        FOR_EACH_CLUSTER_OF(item, cluster, mine, active, at.tile) {
             for (uint i = 0; i < clusters[cluster].list_count; ++i) {
                 uint light = lists[clusters[cluster].list_begin + i];
                 if (light < light_count || !(tree_nodes[light - light_count].radius > 0.0f))

@@ -7,10 +7,15 @@
 #include "kernels/shared/tone_curve.h"
 #include "raster/shaders/surface.glsl"
 
-layout(std430, binding = SRGB_BLOCK) readonly buffer SrgbTable {
+layout(std430, binding = SRGB_BLOCK) readonly buffer SrgbBuckets {
     float srgb_boundary[SRGB_BUCKETS];
     uint srgb_bucket_code[SRGB_BUCKETS];
 };
+#define SrgbTable uint
+#define boundary_of(table, bucket) srgb_boundary[bucket]
+#define code_of(table, bucket) srgb_bucket_code[bucket]
+#include "kernels/shared/srgb_code.h"
+
 layout(location = 0) precise out uvec4 out_planes[ATTACHMENTS];
 
 struct GBufferTarget {
@@ -22,13 +27,8 @@ const uint kSlots[PLANE_COUNT] = PLANE_SLOTS;
 uvec4 stored[ATTACHMENTS];
 
 #define emissive_scale_of(to) EMISSIVE_SCALE
+#define encode_srgb(to, v) srgb_code_by_table(0u, v)
 
-// Repeats srgb_code_by_table() of kernels/device/srgb.h.
-uint encode_srgb(GBufferTarget to, float v) {
-    float c = min(max(v, uintBitsToFloat(SRGB_FIRST_BITS)), 1.0);
-    uint bucket = (floatBitsToUint(c) - SRGB_FIRST_BITS) >> SRGB_BUCKET_SHIFT;
-    return srgb_bucket_code[bucket] + (c >= srgb_boundary[bucket] ? 1u : 0u);
-}
 
 void store_plane_uint(GBufferTarget to, uint plane, uint value) {
     stored[kSlots[plane] / 4u][kSlots[plane] % 4u] = value;

@@ -53,16 +53,16 @@ TEST(Reference, UnboundedInverseSquareHasNoRange) {
                      0.5 / std::numbers::pi * 10 / 25.0 * (4.0 / 5.0));
 }
 
-// A random range is negative: where the light would be below the budget, its draw outweighs that.
+// Where the light would be below the budget, its draw outweighs that.
 TEST(Reference, DrawnRangesWeighByTheChanceOfTheDraw) {
     ReferenceLight light = light_at({0, 0, -3}, 4.0);
-    light.inv_range2 = -light.inv_range2;
+    light.random_range = true;
     const ReferenceLights lights{{light}, {}};
     const double unbounded = 0.5 / std::numbers::pi * 10 / 4.0;  // 2 m away
     EXPECT_DOUBLE_EQ(radiance(wall_pixel(), lights, {.random_ranges = 7.0})[0], unbounded);
     EXPECT_DOUBLE_EQ(radiance(wall_pixel(), lights, {.random_ranges = 15.0})[0],
                      unbounded * 4.0 * 15.0 / 30.0);
-    light.inv_range2 = -1.0;
+    light.inv_range2 = 1.0;
     EXPECT_EQ(radiance(wall_pixel(), {{light}, {}}, {.random_ranges = 15.0})[0], 0.0) << "drawn";
 }
 

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "host/measure/reference/decoded_samples.h"
+#include "kernels/shared/light_transform.h"
 
 namespace kilolux {
 namespace {
@@ -39,7 +40,7 @@ std::vector<LightContribution> light_contributions(const PixelProbe& probe,
         LightContribution& next = out.emplace_back();
         next.index = light.index;
         next.distance = glm::length(way);
-        next.range = 1.0 / std::sqrt(std::abs(double{light.shade.position_inv_range2.w}));
+        next.range = 1.0 / std::sqrt(double{inv_range2_of(light.shade)});
         if (seen) next.radiance = {lit.radiance.rgb[0], lit.radiance.rgb[1], lit.radiance.rgb[2]};
         next.why_dark =
             why_dark(next, lit.reaching.front() > 0, seen, glm::dot(way, surface.normal) > 0.0);

@@ -6,6 +6,7 @@
 
 #include "host/measure/reference/reference.h"
 #include "host/scene/lights/light_kinds.h"
+#include "kernels/shared/light_transform.h"
 
 namespace kilolux {
 namespace {
@@ -14,7 +15,8 @@ glm::dvec3 xyz(const float4& v) { return {v.x, v.y, v.z}; }
 
 ReferenceLight of_row(const ShadeLight& row) {
     return {.position = xyz(row.position_inv_range2),
-            .inv_range2 = row.position_inv_range2.w,
+            .inv_range2 = inv_range2_of(row),
+            .random_range = has_random_range(row),
             .intensity = xyz(row.color_scale),
             .axis = xyz(row.axis_cos),
             .cos_out = row.axis_cos.w,
@@ -62,14 +64,13 @@ Incidence incidence(const ReferenceLight& light, const glm::dvec3& position,
                     const ReferenceOptions& options) {
     const glm::dvec3 v = light.position - position;
     const double d2 = glm::dot(v, v);
-    const double x = options.windowed ? d2 * std::abs(light.inv_range2) : 0.0;  // (d / range)^2
+    const double x = options.windowed ? d2 * light.inv_range2 : 0.0;  // (d / range)^2
     if (x >= 1.0) return {};
     const double d = std::max(std::sqrt(d2), options.light_d_min);
     const glm::dvec3 to_light = v / d;
     const double edge = cone(light, to_light);
-    const double window = light.inv_range2 < 0.0
-                              ? random_range_weight(light, d2, options.random_ranges)
-                              : (1.0 - x) * (1.0 + x);
+    const double window = light.random_range ? random_range_weight(light, d2, options.random_ranges)
+                                             : (1.0 - x) * (1.0 + x);
     const double share = light.web.web != nullptr ? share_towards(light.web, -to_light) : 1.0;
     return {to_light, window / (d * d) * edge * share,
             x < 1.0 - kReachMargin && edge > kReachMargin && share > kReachMargin};

@@ -14,8 +14,9 @@ namespace kilolux {
 
 /// A point or spot light in view space, in double.
 struct ReferenceLight {
-    glm::dvec3 position{0.0};   // [m]
-    double inv_range2 = 0.0;    // 1/range^2 [1/m^2]; 0: no range; < 0: minus that of a random one
+    glm::dvec3 position{0.0};  // [m]
+    double inv_range2 = 0.0;   // 1/range^2 [1/m^2]; 0: no range
+    bool random_range = false;
     glm::dvec3 intensity{0.0};  // linear Rec. 709 [cd]
     glm::dvec3 axis{0.0};       // unit, direction of the light's travel; 0 for a point light
     double cos_out = -1.0;      // of the outer cone's half angle

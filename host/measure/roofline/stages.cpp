@@ -3,8 +3,10 @@
 
 #include <algorithm>
 
-#include "host/picture/frame.h"
-#include "host/render/host_stages.h"
+#include "host/interop/gbuffer_bridge.h"
+#include "host/render/forward_shading.h"
+#include "host/render/frame.h"
+#include "host/render/surface_pass.h"
 #include "host/stages/lights/move_lights.h"
 #include "host/stages/lights/prepare_lights.h"
 #include "host/stages/lists/bin_pixels.h"
@@ -20,6 +22,7 @@
 #include "host/stages/shading/reflect_environment.h"
 #include "host/stages/shading/shade.h"
 #include "host/stages/shadows/cast_shadows.h"
+#include "host/stages/shadows/draw_shadows.h"
 #include "host/stages/shadows/shadow_origins.h"
 #include "host/stages/surfaces/bin_triangles.h"
 #include "host/stages/surfaces/raster_triangles.h"

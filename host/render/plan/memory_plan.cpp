@@ -10,6 +10,7 @@
 #include "host/picture/aovs.h"
 #include "host/picture/bands.h"
 #include "host/picture/decoded_surfaces.h"
+#include "host/render/environment_light.h"
 #include "host/render/forward_shading.h"
 #include "host/render/whole_picture.h"
 #include "host/stages/lights/drift_lights.h"
@@ -19,13 +20,13 @@
 #include "host/stages/lists/count_lights.h"
 #include "host/stages/picture/adaptive_samples.h"
 #include "host/stages/picture/sum_samples.h"
-#include "host/stages/shading/fill_background.h"
 #include "host/stages/shadows/shadow_origins.h"
 #include "host/stages/surfaces/bin_triangles.h"
 #include "host/stages/surfaces/decode_gbuffer.h"
 #include "host/surfaces/shadow_scene.h"
 #include "host/surfaces/surface_scene.h"
 #include "kernels/shared/cluster_grid.h"
+#include "raster/solid_pass.h"
 
 namespace kilolux {
 namespace {
@@ -81,15 +82,6 @@ Bytes scene_bytes(const Scene& scene, bool sampled_by_gl) {
            scene.instances.size() * 2 * sizeof(Instance);
 }
 
-// Bytes of a pixel of OpenGL's targets for a G-buffer, depth included.
-Bytes target_pixel_bytes(const ScenePlan& plan) {
-    constexpr Bytes kFloat4 = 16;
-    const Bytes optional = plan.gbuffer.material ? 5 : 1;
-    if (plan.gbuffer.layout == GBUFFER_FULL) return 4 + kFloat4 * (plan.gbuffer.material ? 5 : 4);
-    if (plan.gbuffer.layout == GBUFFER_HALF) return 4 + 8 + 8 + 4 + optional;
-    return static_cast<Bytes>(plan.gbuffer_bytes_per_pixel);
-}
-
 struct Need {
     Bytes fixed = 0;            // whatever the bands
     Bytes device_fixed = 0;     // the part of `fixed` that is device buffers
@@ -118,8 +110,7 @@ Bytes scene_device_bytes(const Scene& scene, const RenderSettings& settings, con
     if (ids) {
         bytes += surface_scene_bytes(scene, surface_features(scene, plan.gbuffer, kAnyAnisotropy));
     }
-    if (settings.background) bytes += FillBackground::bytes(settings.background->rows.size());
-    if (settings.reflections) bytes += settings.reflections->texels.size() * sizeof(float);
+    bytes += EnvironmentLight::device_bytes(settings);
     if (ids && settings.geometry != Geometry::ids) {  // `automatic` may draw in OpenCL, too
         bytes += BinTriangles::kTriangleBytes * triangle_count(scene);
     }
@@ -159,11 +150,11 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
     need.picture_pixel = picture_pixel_bytes(settings);
     if (settings.want.view == ViewKind::difference)
         need.fixed += on_device;  // of the reference pipeline
-    constexpr Bytes kForwardTarget = 20;
+    Bytes target_pixel = is_forward(settings.renderer) || blends ? ForwardPass::kPixelBytes : 0;
     if (!is_forward(settings.renderer) && !draws_in_opencl) {
-        need.fixed += width * tile_rows * target_pixel_bytes(plan);
+        target_pixel += ids ? IdsPass::kPixelBytes : plan_targets(plan.gbuffer).pixel_bytes;
     }
-    if (is_forward(settings.renderer) || blends) need.fixed += width * tile_rows * kForwardTarget;
+    need.fixed += width * tile_rows * target_pixel;
     need.band_pixel = band_pixel_bytes(settings, plan, blends);
     need.largest_element =
         std::max<Bytes>(settings.want.pixels() ? DecodeGBuffer::kPixelBytes : Radiance::kPixelBytes,

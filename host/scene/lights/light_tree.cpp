@@ -9,6 +9,7 @@
 #include <limits>
 #include <numeric>
 
+#include "host/scene/lights/light_kinds.h"
 #include "host/scene/lights/light_ranges.h"
 
 namespace kilolux {
@@ -123,7 +124,8 @@ class Builder {
 }  // namespace
 
 bool is_for_tree(const SceneLight& light) {
-    return light.type == LightType::point && lacks_range(light) && light.profile < 0 &&
+    const LightKind& kind = kind_of(light);
+    return kind.is_placed && !kind.is_aimed && lacks_range(light) && light.profile < 0 &&
            !light.follows_camera;
 }
 

@@ -7,11 +7,11 @@
 
 #include "host/base/light_cells.h"
 #include "host/base/point_pair.h"
+#include "host/stages/lights/move_lights.h"
 
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kDriftLightsStage = "move_lights";  // in times: a part of it
 constexpr uint kDigitBits = 8;                                 // of kernels/lights/drift_lights.cl
 constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
 constexpr std::size_t kLeastChunk = 256;  // lights: as many as a chunk has counters
@@ -72,12 +72,12 @@ DriftLights::DriftLights(const Gpu& gpu, const Tuning& tuning)
     : gpu_(gpu),
       tuning_(tuning),
       program_(build_program(gpu, "drift_lights")),
-      keys_(gpu, program_, kDriftLightsStage, "drift_keys"),
-      count_(gpu, program_, kDriftLightsStage, "drift_count"),
-      scatter_(gpu, program_, kDriftLightsStage, "drift_scatter"),
-      permute_(gpu, program_, kDriftLightsStage, "drift_permute"),
-      place_(gpu, program_, kDriftLightsStage, "drift_lights"),
-      prefix_sum_(gpu, tuning, kDriftLightsStage),
+      keys_(gpu, program_, kMoveLightsStage, "drift_keys"),
+      count_(gpu, program_, kMoveLightsStage, "drift_count"),
+      scatter_(gpu, program_, kMoveLightsStage, "drift_scatter"),
+      permute_(gpu, program_, kMoveLightsStage, "drift_permute"),
+      place_(gpu, program_, kMoveLightsStage, "drift_lights"),
+      prefix_sum_(gpu, tuning, kMoveLightsStage),
       staging_(gpu),
       drifts_(gpu, "lights"),
       ordered_(gpu, "lights"),

@@ -19,6 +19,10 @@ struct ReflectionMapsView {
                                     // steps, then irradiance / pi
     std::span<const float> table;   // [size][size][3]
     uint table_size = 0;
+
+    std::size_t bytes() const {
+        return texels.size_bytes() + levels.size_bytes() + table.size_bytes();
+    }
 };
 
 /// The same on the device.

@@ -6,17 +6,6 @@
 namespace kilolux {
 namespace {
 
-// PoCL 3.1 loses values across the barriers of staged work-groups one item wide, which 16 lanes
-// make, and reads through a wild pointer (hard case 17). A CPU gains nothing by staging, and GPUs
-// are not built with that many lanes. A staging group has a work-item for each vector of a tile.
-Tuning usable(Tuning tuning, const DeviceInfo& device) {
-    const int lanes = device.lane_width;
-    if (lanes >= FINE_TILE || FINE_TILE_PIXELS / lanes > device.max_work_group) {
-        tuning.shade_stage = 0;
-    }
-    return tuning;
-}
-
 // The ambient light that shading adds, and its output buffers: OUTPUT_ARGS.
 struct ShadingOutput {
     float ambient;
@@ -31,11 +20,6 @@ struct ShadingOutput {
     }
 };
 
-// float4 rows of a StoredLight of kernels/device/stored_light.h.
-std::size_t stored_light_rows(const KernelFeatures& features) {
-    return features.spot_lights ? 3 : 2;
-}
-
 // SHADOWS of kernels/shading/sum_lights.h.
 constexpr int kShadowBits = 1;
 constexpr int kShadowRays = 2;
@@ -49,84 +33,12 @@ BuildOptions all_options(const ShadingResources& resources, const KernelFeatures
     return options;
 }
 
-// Bytes of a pixel's list and of its stored surface.
-double listed_surface_bytes(const StageCounts& c) {
-    return (c.gbuffer_bytes_per_pixel + kPixelOrderBytes) * c.surface_pixels +
-           sizeof(ActiveCluster) * c.active_clusters + c.index_bytes() * c.refined_pairs;
-}
-
 }  // namespace
-
-ShadingResources::ShadingResources(const Gpu& gpu, const Tuning& tuning,
-                                   const KernelFeatures& features)
-    : gpu_(gpu),
-      tuning_(usable(tuning, gpu.info)),
-      features_(features),
-      radiance_(gpu, kShadeStage),
-      stored_(gpu, kShadeStage) {
-    if (features.half_light_colors) {
-        store_lights_.emplace(gpu, build_program(gpu, "store_lights", options()), kShadeStage,
-                              "store_lights");
-    }
-}
-
-BuildOptions ShadingResources::options() const {
-    BuildOptions options = feature_options(features_)
-                               .define("STAGE", tuning_.shade_stage)
-                               .define("PREFETCH", tuning_.shade_prefetch)
-                               .define("FAST_RSQRT", !gpu_.info.is_cpu)
-                               .define("NATIVE_MATH", features_.native_math)
-                               .define("HALF_LIGHT_COLORS", features_.half_light_colors);
-    if (features_.fast_relaxed_math) options.flag("-cl-fast-relaxed-math");
-    return options;
-}
-
-WorkSize ShadingResources::work_size(const Kernel& kernel, const View& view) const {
-    if (tuning_.shade_stage == 0) return kernel.pixel_items(view, tuning_.shade_rows);
-    const WorkSize size = kernel.pixel_items(view, FINE_TILE);
-    if (size.local.get()[1] < FINE_TILE) {
-        throw Error(std::string(kShadeStage) +
-                    ": staging lights needs a work-item for each vector of a tile in a group, more "
-                    "than the device allows this kernel: measure a tuning without (kilolux bench "
-                    "--tune)");
-    }
-    return size;
-}
-
-PreparedLights ShadingResources::stored_lights(const PreparedLights& lights, StageTimer& timer) {
-    if (!store_lights_ || lights.rows() == 0) return lights;
-    const DeviceArray<float4> stored =
-        stored_.reserve(lights.rows() * stored_light_rows(features_));
-    store_lights_->enqueue({cl::NDRange(lights.rows()), cl::NullRange}, timer, lights.lights,
-                           stored);
-    PreparedLights out = lights;
-    out.lights = DeviceArray<ShadeLight>(stored.buffer(), lights.rows());
-    return out;
-}
-
-Radiance ShadingResources::radiance(const View& view) {
-    return {radiance_.reserve(std::size_t{3} * view.stride * view.height), view};
-}
-
-DrawShadows::DrawShadows(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
-    : resources_(gpu, tuning, features),
-      program_(build_program(gpu, kDrawShadowsStage, resources_.options())),
-      clear_(gpu, program_, kDrawShadowsStage, "draw_shadows_clear"),
-      draw_(gpu, program_, kDrawShadowsStage, "draw_shadows") {}
-
-void DrawShadows::enqueue(const LitPixels& lit, const ShadowWords& words,
-                          const ShadowSamples& samples, StageTimer& timer) {
-    constexpr std::size_t kClearItems = 16384;
-    clear_.enqueue(items(kClearItems, 1), timer, words, lit.clusters.tile_count);
-    LitPixels stored = lit;
-    stored.lights = resources_.stored_lights(lit.lights, timer);
-    draw_.enqueue(resources_.work_size(draw_, lit.gbuffer.view), timer, stored, words, samples);
-}
 
 Shade::Shade(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
     : gpu_(gpu),
       features_(features),
-      resources_(gpu, tuning, features),
+      resources_(gpu, tuning, features, kShadeStage),
       variance_(gpu, kShadeStage) {}
 
 void Shade::build(std::optional<int> tone_curve) {
@@ -162,7 +74,7 @@ Radiance Shade::enqueue(const LitPixels& lit, StageTimer& timer, const ShadowWor
 
 ShadeAll::ShadeAll(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
                    const SurfaceFeatures& surfaces)
-    : resources_(gpu, tuning, features),
+    : resources_(gpu, tuning, features, kShadeStage),
       kernel_(gpu,
               build_program(gpu, "shade_all", all_options(resources_, features, surfaces, tuning)),
               kShadeStage, "shade_all"),
@@ -199,14 +111,6 @@ StageWork shade_work(const StageCounts& c) {
     }
     if (c.shaded_display) work.bytes_written += (kDisplayBytes - kRadianceBytes) * c.pixels;
     return work;
-}
-
-// Evaluates each light of a pixel's list alone.
-StageWork draw_shadows_work(const StageCounts& c) {
-    return {.bytes_read = listed_surface_bytes(c) + kRadianceBytes * c.surface_pixels,
-            .bytes_written = kWordBytes * c.shadow_words,
-            .instructions = shading_instructions(c),
-            .launches = 2};
 }
 
 }  // namespace kilolux

@@ -4,57 +4,13 @@
 #include <map>
 #include <optional>
 
-#include "host/gpu/features.h"
-#include "host/gpu/flow.h"
-#include "host/gpu/kernel.h"
-#include "host/gpu/stage_info.h"
 #include "host/gpu/surface_flow.h"
+#include "host/stages/shading/shading_resources.h"
 
 namespace kilolux {
 
 StageWork shade_work(const StageCounts& counts);
-StageWork draw_shadows_work(const StageCounts& counts);
 inline constexpr StageInfo kShadeStage = {"shade", StageGroup::shading, shade_work};
-inline constexpr StageInfo kDrawShadowsStage = {"draw_shadows", StageGroup::shadows,
-                                                draw_shadows_work};
-
-/// The common part of both ways of shading: build options, tables, lights in the kernels' form,
-/// output.
-class ShadingResources {
- public:
-    ShadingResources(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
-
-    BuildOptions options() const;
-    WorkSize work_size(const Kernel& kernel, const View& view) const;
-
-    /// The lights in the kernels' form: unchanged, or with colours in half precision.
-    PreparedLights stored_lights(const PreparedLights& lights, StageTimer& timer);
-
-    Radiance radiance(const View& view);
-
- private:
-    Gpu gpu_;
-    Tuning tuning_;
-    KernelFeatures features_;
-    std::optional<Kernel> store_lights_;  // with half_light_colors
-    GrowingArray<float> radiance_;
-    GrowingArray<float4> stored_;
-};
-
-/// Draws the lights to which pixels cast shadow rays, as bits in words that CastShadows reserved.
-class DrawShadows {
- public:
-    DrawShadows(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
-
-    /// Enqueues only.
-    void enqueue(const LitPixels& lit, const ShadowWords& words, const ShadowSamples& samples,
-                 StageTimer& timer);
-
- private:
-    ShadingResources resources_;
-    KernelProgram program_;
-    Kernel clear_, draw_;
-};
 
 /// Radiance of every pixel from the lists of its active cluster, or its codes of a display.
 class Shade {

@@ -21,7 +21,7 @@ struct RepackSource {
         set("pitch", pitch);
         set("invert", invert);
         set("world_normals", world_normals);
-        set("roughness", planes.roughness);
+        set("roughness", planes.roughness.value_or(ROUGHNESS_OF_ALBEDO));
     }
 };
 

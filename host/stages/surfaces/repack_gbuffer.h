@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "host/base/make_view.h"
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
@@ -34,11 +36,11 @@ struct SourceFormat {
 /// A frame of another renderer: rows from the top. The caller owns it; it is read until the queue
 /// has passed the repack.
 struct SourceGBuffer {
-    cl::Memory depth;         // [height][pitch]
-    cl::Memory normal;        // [height][pitch]
-    cl::Memory albedo;        // [height][pitch]
-    uint pitch = 0;           // of buffers: pixels from a row to the next; 0: the width
-    float roughness = -1.0f;  // of all surfaces; below 0: the albedo's fourth channel
+    cl::Memory depth;                  // [height][pitch]
+    cl::Memory normal;                 // [height][pitch]
+    cl::Memory albedo;                 // [height][pitch]
+    uint pitch = 0;                    // of buffers: pixels from a row to the next; 0: the width
+    std::optional<float> roughness{};  // of all surfaces; without: the albedo's fourth channel
 };
 
 /// A packed G-buffer of another renderer's depth, normals and albedo. The way back is PackRadiance;

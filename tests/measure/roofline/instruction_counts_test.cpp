@@ -7,9 +7,10 @@
 
 #include "tests/measure/roofline/counting_lanes.h"
 
-#define SHADING SHADING_LAMBERT
-#define HAS_SPOT_LIGHTS 0
 #define HAS_METALLIC 0
+#define HAS_SPECULAR 0
+#define HAS_SPOT_LIGHTS 0
+#define SHADING SHADING_LAMBERT
 #define COUNTED lambert
 #include "tests/measure/roofline/counted_evaluate.h"
 #undef HAS_SPOT_LIGHTS
@@ -18,6 +19,8 @@
 #include "tests/measure/roofline/counted_evaluate.h"
 #undef SHADING
 #define SHADING SHADING_BLINN_PHONG
+#define COUNTED blinn_phong_spots
+#include "tests/measure/roofline/counted_evaluate.h"
 #undef HAS_SPOT_LIGHTS
 #define HAS_SPOT_LIGHTS 0
 #define COUNTED blinn_phong
@@ -26,13 +29,29 @@
 #define SHADING SHADING_PBR
 #define COUNTED pbr
 #include "tests/measure/roofline/counted_evaluate.h"
+#undef HAS_SPOT_LIGHTS
+#define HAS_SPOT_LIGHTS 1
+#define COUNTED pbr_spots
+#include "tests/measure/roofline/counted_evaluate.h"
 #undef HAS_METALLIC
 #define HAS_METALLIC 1
+#define COUNTED pbr_metallic_spots
+#include "tests/measure/roofline/counted_evaluate.h"
+#undef HAS_SPOT_LIGHTS
+#define HAS_SPOT_LIGHTS 0
 #define COUNTED pbr_metallic
+#include "tests/measure/roofline/counted_evaluate.h"
+#undef HAS_SPECULAR
+#define HAS_SPECULAR 1
+#define COUNTED pbr_metallic_specular
+#include "tests/measure/roofline/counted_evaluate.h"
+#undef HAS_METALLIC
+#define HAS_METALLIC 0
+#define COUNTED pbr_specular
 #include "tests/measure/roofline/counted_evaluate.h"
 #undef HAS_SPOT_LIGHTS
 #define HAS_SPOT_LIGHTS 1
-#define COUNTED pbr_metallic_spots
+#define COUNTED pbr_specular_spots
 #include "tests/measure/roofline/counted_evaluate.h"
 
 namespace {
@@ -45,31 +64,39 @@ struct Case {
     const char* name;
     InstructionCounts (*count)(float distance);
     InstructionCounts (*count_directional)();
-    int shading;
-    bool metallic, spots;
+    struct {
+        int shading;
+        bool metallic = false, specular = false, spots = false;
+    } of;
 
     kilolux::KernelFeatures features() const {
         kilolux::KernelFeatures features;
-        features.shading = shading;
-        features.metallic = metallic;
-        features.spot_lights = spots;
+        features.shading = of.shading;
+        features.metallic = of.metallic;
+        features.specular = of.specular;
+        features.spot_lights = of.spots;
         return features;
     }
 };
 
+#define CASE(name, ...)                                                         \
+    {                                                                           \
+#name, name::count_evaluation, name::count_directional, { __VA_ARGS__ } \
+    }
 const Case kCases[] = {
-    {"lambert", lambert::count_evaluation, lambert::count_directional, SHADING_LAMBERT, false,
-     false},
-    {"lambert, spots", lambert_spots::count_evaluation, lambert_spots::count_directional,
-     SHADING_LAMBERT, false, true},
-    {"blinn-phong", blinn_phong::count_evaluation, blinn_phong::count_directional,
-     SHADING_BLINN_PHONG, false, false},
-    {"pbr", pbr::count_evaluation, pbr::count_directional, SHADING_PBR, false, false},
-    {"pbr, metallic", pbr_metallic::count_evaluation, pbr_metallic::count_directional, SHADING_PBR,
-     true, false},
-    {"pbr, metallic, spots", pbr_metallic_spots::count_evaluation,
-     pbr_metallic_spots::count_directional, SHADING_PBR, true, true},
+    CASE(lambert, .shading = SHADING_LAMBERT),
+    CASE(lambert_spots, .shading = SHADING_LAMBERT, .spots = true),
+    CASE(blinn_phong, .shading = SHADING_BLINN_PHONG),
+    CASE(blinn_phong_spots, .shading = SHADING_BLINN_PHONG, .spots = true),
+    CASE(pbr, .shading = SHADING_PBR),
+    CASE(pbr_spots, .shading = SHADING_PBR, .spots = true),
+    CASE(pbr_metallic, .shading = SHADING_PBR, .metallic = true),
+    CASE(pbr_metallic_spots, .shading = SHADING_PBR, .metallic = true, .spots = true),
+    CASE(pbr_specular, .shading = SHADING_PBR, .specular = true),
+    CASE(pbr_specular_spots, .shading = SHADING_PBR, .specular = true, .spots = true),
+    CASE(pbr_metallic_specular, .shading = SHADING_PBR, .metallic = true, .specular = true),
 };
+#undef CASE
 
 void expect_equal(const InstructionCounts& counted, const InstructionCounts& model) {
     EXPECT_EQ(counted.total, model.total);
@@ -96,7 +123,7 @@ TEST(InstructionCountsTest, OfLightsOutOfRangeEndWithTheRangeTest) {
     for (const Case& c : kCases) {
         SCOPED_TRACE(c.name);
         const auto features = c.features();
-        EXPECT_EQ(kilolux::leaves_early(features), c.shading != SHADING_LAMBERT);
+        EXPECT_EQ(kilolux::leaves_early(features), c.of.shading != SHADING_LAMBERT);
         expect_equal(c.count(kOutOfRange), kilolux::leaves_early(features)
                                                ? kilolux::range_test_instructions()
                                                : kilolux::evaluation_instructions(features));

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/shading/shading_resources.h"
+
+namespace kilolux {
+namespace {
+
+// PoCL 3.1 loses values across the barriers of staged work-groups one item wide, which 16 lanes
+// make, and reads through a wild pointer (hard case 17). A CPU gains nothing by staging, and GPUs
+// are not built with that many lanes. A staging group has a work-item for each vector of a tile.
+Tuning usable(Tuning tuning, const DeviceInfo& device) {
+    const int lanes = device.lane_width;
+    if (lanes >= FINE_TILE || FINE_TILE_PIXELS / lanes > device.max_work_group) {
+        tuning.shade_stage = 0;
+    }
+    return tuning;
+}
+
+// float4 rows of a StoredLight of kernels/device/stored_light.h.
+std::size_t stored_light_rows(const KernelFeatures& features) {
+    return features.spot_lights ? 3 : 2;
+}
+
+}  // namespace
+
+double listed_surface_bytes(const StageCounts& c) {
+    return (c.gbuffer_bytes_per_pixel + kPixelOrderBytes) * c.surface_pixels +
+           sizeof(ActiveCluster) * c.active_clusters + c.index_bytes() * c.refined_pairs;
+}
+
+ShadingResources::ShadingResources(const Gpu& gpu, const Tuning& tuning,
+                                   const KernelFeatures& features, std::string_view stage)
+    : gpu_(gpu),
+      stage_(stage),
+      tuning_(usable(tuning, gpu.info)),
+      features_(features),
+      radiance_(gpu, stage),
+      stored_(gpu, stage) {
+    if (features.half_light_colors) {
+        store_lights_.emplace(gpu, build_program(gpu, "store_lights", options()), stage,
+                              "store_lights");
+    }
+}
+
+BuildOptions ShadingResources::options() const {
+    BuildOptions options = feature_options(features_)
+                               .define("STAGE", tuning_.shade_stage)
+                               .define("PREFETCH", tuning_.shade_prefetch)
+                               .define("FAST_RSQRT", !gpu_.info.is_cpu)
+                               .define("NATIVE_MATH", features_.native_math)
+                               .define("HALF_LIGHT_COLORS", features_.half_light_colors);
+    if (features_.fast_relaxed_math) options.flag("-cl-fast-relaxed-math");
+    return options;
+}
+
+WorkSize ShadingResources::work_size(const Kernel& kernel, const View& view) const {
+    if (tuning_.shade_stage == 0) return kernel.pixel_items(view, tuning_.shade_rows);
+    const WorkSize size = kernel.pixel_items(view, FINE_TILE);
+    if (size.local.get()[1] < FINE_TILE) {
+        throw Error(std::string(stage_) +
+                    ": staging lights needs a work-item for each vector of a tile in a group, more "
+                    "than the device allows this kernel: measure a tuning without (kilolux bench "
+                    "--tune)");
+    }
+    return size;
+}
+
+PreparedLights ShadingResources::stored_lights(const PreparedLights& lights, StageTimer& timer) {
+    if (!store_lights_ || lights.rows() == 0) return lights;
+    const DeviceArray<float4> stored =
+        stored_.reserve(lights.rows() * stored_light_rows(features_));
+    store_lights_->enqueue({cl::NDRange(lights.rows()), cl::NullRange}, timer, lights.lights,
+                           stored);
+    PreparedLights out = lights;
+    out.lights = DeviceArray<ShadeLight>(stored.buffer(), lights.rows());
+    return out;
+}
+
+Radiance ShadingResources::radiance(const View& view) {
+    return {radiance_.reserve(std::size_t{3} * view.stride * view.height), view};
+}
+
+}  // namespace kilolux

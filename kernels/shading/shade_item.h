@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Shading of a work-item's pixels, whatever lights reach them. A kernel includes this after its
+//   LightSource     where it takes lights from
+//   has_lights()    whether any may reach a tile
+//   source_item()   the pixels of the work-item at (x, y) of the planes
+//   source_sum()    the sum of their light; without `wanted` the work-item only helps to stage
+// A work-group lies within one fine tile; with STAGE > 0 it is a whole one.
+#ifndef KILOLUX_DEVICE_SHADE_ITEM_H
+#define KILOLUX_DEVICE_SHADE_ITEM_H
+#include "kernels/device/lit_item.h"
+#include "kernels/shading/light_target.h"
+#include "kernels/shading/sum_lights.h"
+
+// SAMPLE_ARGS and OUTPUT_ARGS.
+typedef struct ShadeOutput {
+    LightTarget to;
+    float ambient;
+    ShadowSamples samples;
+    global float* variance;
+} ShadeOutput;
+#define SHADE_OUTPUT_OF_ARGS \
+    ((ShadeOutput){LIGHT_TARGET_OF_ARGS, ambient, SAMPLES_OF_ARGS, variance})
+
+static inline void shade_item(GBuffer g, LightSource from, LightSet set, ShadeOutput out) {
+    View view = g.view;
+    ItemPlace at = place_in_planes(view);
+    bool inside = at.inside;
+#if STAGE == 0
+    if (!inside) return;
+#endif
+    if (!inside) at.y = view.height - 1u;  // rows below the planes only help to stage
+    prefetch_next_tile(g, out.to, at.x, at.y);
+    if (!has_lights(from, at.tile)) {  // background, for the whole group
+        if (inside) store_light(out.to, view, row_pixels(view, at.x, at.y), zero3());
+        return;
+    }
+    LitItem item = source_item(from, g, at.x, at.y);
+    bool wanted = inside && item.any;
+#if STAGE == 0
+    if (!wanted) {
+        store_light(out.to, view, item.pixels, zero3());
+        return;
+    }
+#endif
+    Surface s = load_surface(g, item.pixels, item.z);
+    ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
+#if SAMPLED_SHADOWS
+    FV spread = fv(0.0f);
+    set.variance = &spread;
+    set.pick = make_pick(s, out.samples, view, item.pixels, at);
+#endif
+    LightSum sum = source_sum(from, g, at, item, wanted, p, set);
+#if SAMPLED_SHADOWS
+    FV3 color = without_hidden(set.pick, load_radiance(out.samples.whole, view, item.pixels), sum);
+    if (inside) store_plane(out.variance, item.pixels, lane_select(item.shown, spread, fv(0.0f)));
+#else
+    FV3 color = finish_shading(s, sum, out.ambient);
+#endif
+    if (inside) store_light(out.to, view, item.pixels, select3(item.shown, color, zero3()));
+}
+#endif
