@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,6 +48,7 @@ struct FrameRequest {
     // Renderers that make one picture together, whose caller takes it in strips of rows: see
     // MemoryPlan::strip_rows. 0: it takes the whole.
     int strip_makers = 0;
+    std::uint64_t crop_pixels = 0;  // of the largest part that the caller takes of the picture
     bool operator==(const FrameRequest&) const = default;
 
     bool has_aov(std::string_view name) const {

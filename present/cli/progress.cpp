@@ -21,9 +21,7 @@ int terminal_columns() {
     return size.ws_col;
 }
 
-bool is_of_farm(ProgressKind kind) {
-    return kind == ProgressKind::openjd || kind == ProgressKind::alf;
-}
+bool is_of_farm(ProgressKind kind) { return !farm_line(kind, 0.0).empty(); }
 
 double share_of(std::size_t done, std::size_t total) {
     return total == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(total);

@@ -103,6 +103,15 @@ ProgressKind shown_progress(const RenderOptions& options, std::size_t count,
     return tells_strips ? ProgressKind::none : options.shared.shown_progress();
 }
 
+// Of the largest part of the picture that has a file of its own; 0: the whole has one.
+std::uint64_t crop_pixels(const OutputOptions& out, const RenderSettings& s) {
+    const auto up = [](int pixels, int parts) {
+        return static_cast<std::uint64_t>((pixels - 1) / parts + 1);
+    };
+    if (out.tiles) return up(s.width, out.tiles->columns) * up(s.height, out.tiles->rows);
+    return out.crop ? up(out.crop->width, 1) * up(out.crop->height, 1) : 0;
+}
+
 std::size_t bytes_of(const Frame& frame) {
     std::size_t bytes = (frame.radiance.size() + frame.shown_light.size()) * sizeof(float);
     for (const Layer& layer : frame.aovs) {
@@ -176,6 +185,7 @@ FrameRequest request_of(const RenderOptions& options, const FrameRequest& asked)
     want.radiance = !for_the_eye || own_display || !out.reference.empty();
     want.shown_light = own_display;
     want.strip_makers = can_write_strips(options) || out.crop || out.tiles ? 1 : 0;
+    want.crop_pixels = crop_pixels(out, options.shared.settings);
     want.counts =
         !out.stats.empty() || std::ranges::find(want.aovs, "light-count") != want.aovs.end();
     return want;

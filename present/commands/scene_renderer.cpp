@@ -26,9 +26,10 @@ void check_budget(SharedOptions& options, const BudgetOptions& budget) {
 }
 
 RenderSettings before_white(RenderSettings settings) {
-    const int makers = settings.want.strip_makers;
+    const FrameRequest want = settings.want;
     settings.want = radiance_only();
-    settings.want.strip_makers = makers;
+    settings.want.strip_makers = want.strip_makers;
+    settings.want.crop_pixels = want.crop_pixels;
     settings.background = std::make_shared<const Environment>(Environment{1, 1, {glm::vec3(1.0f)}});
     return settings;
 }

@@ -185,18 +185,19 @@ TEST(Settings, RefuseAResumeWithAnotherValue) {
     const TemporaryFolder folder;
     const DeviceInfo device = describe(choose_device(""));
     const Scene scene = make_generated_scene("grid");
-    const auto context = [&](const SharedOptions& options) {
-        return bench_context(options, {}, scene, choose_camera(options, scene), device);
+    const auto document = [&](const SharedOptions& options) {
+        const Camera camera = choose_camera(options, scene);
+        return result_document(bench_context(options, {}, scene, camera, device), {}, {});
     };
     const std::filesystem::path file = folder / "bench.context.json";
-    write_text(file, nlohmann::json{{"context", context(render_options())}}.dump());
-    EXPECT_NO_THROW(require_same_context(file, context(render_options())));
+    write_text(file, document(render_options()).dump());
+    EXPECT_NO_THROW(require_same_context(file, document(render_options())));
     // Rows say them; lanes are in the tuning, too.
     const Names swept = {"--renderer", "--resolution", "--lights", "--grid", "--gbuffer"};
     for (const auto& changed : changed_options()) {
         std::string refusal;
         try {
-            require_same_context(file, context(changed.options));
+            require_same_context(file, document(changed.options));
         } catch (const Error& error) {
             refusal = error.what();
         }

@@ -212,12 +212,14 @@ TEST(Strips, AreRefusedWhereThePictureIsNeeded) {
     EXPECT_NO_THROW(strip());
 }
 
-MemoryPlan plan_of_size(int width, int height, std::uint64_t memory, int strip_makers) {
+MemoryPlan plan_of_size(int width, int height, std::uint64_t memory, int strip_makers,
+                        std::uint64_t crop_pixels = 0) {
     const Scene scene = make_generated_scene("plain");
     RenderSettings settings = small_settings(width, height, 1000);
     settings.geometry = Geometry::compute;
     settings.max_memory_bytes = memory;
     settings.want.strip_makers = strip_makers;
+    settings.want.crop_pixels = crop_pixels;
     return plan_memory(scene, settings, make_scene_plan(scene, settings, 1000),
                        describe(choose_device(settings.device)), true);
 }
@@ -230,6 +232,16 @@ TEST(Strips, LetPicturesFitThatDoNotFitAsAWhole) {
     EXPECT_LE(plan.bytes, 2 * kGiB);
     EXPECT_LE(65536u * static_cast<std::uint64_t>(plan.strip_rows), kStripPixels);
     EXPECT_THROW(plan_of_size(65536, 65536, 300 * kMebibyte, 1), Error);
+}
+
+// A crop of a picture in strips is held beside them.
+TEST(Crops, TakeTheMemoryOfTheirPixels) {
+    constexpr std::uint64_t kPixels = std::uint64_t{1} << 28, kRadiance = 3 * sizeof(float);
+    const MemoryPlan strips = plan_of_size(65536, 65536, 32 * kGiB, 1);
+    const MemoryPlan crop = plan_of_size(65536, 65536, 32 * kGiB, 1, kPixels);
+    EXPECT_GE(crop.bytes, strips.bytes + kPixels * kRadiance);
+    EXPECT_EQ(crop.strip_rows, strips.strip_rows);
+    EXPECT_THROW(plan_of_size(65536, 65536, 2 * kGiB, 1, kPixels), Error);
 }
 
 TEST(Strips, AreThoseOfLargePicturesOnly) {

@@ -148,6 +148,7 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
     need.device_fixed = on_device + width * height * whole_picture_pixel_bytes(settings);
     need.fixed = kProgram + scene_bytes(scene, !ids || blends) + need.device_fixed;
     need.picture_pixel = picture_pixel_bytes(settings);
+    need.fixed += settings.want.crop_pixels * need.picture_pixel;
     if (settings.want.view == ViewKind::difference)
         need.fixed += on_device;  // of the reference pipeline
     Bytes target_pixel = is_forward(settings.renderer) || blends ? ForwardPass::kPixelBytes : 0;

@@ -17,11 +17,11 @@ namespace kilolux {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using Ordered = nlohmann::ordered_json;
 
 constexpr auto kOver = fs::copy_options::recursive | fs::copy_options::overwrite_existing;
 
-Json json_of(const fs::path& file) { return Json::parse(text_of_file(file)); }
+Ordered json_of(const fs::path& file) { return Ordered::parse(text_of_file(file)); }
 
 class Merge : public CacheSandbox {
  protected:
@@ -74,13 +74,13 @@ class Merge : public CacheSandbox {
     }
 
     // Copies a shard and changes a value of its document.
-    std::string changed(const std::string& from, const char* path, const Json& value) const {
+    std::string changed(const std::string& from, const char* path, const Ordered& value) const {
         std::string to = "changed";
         for (const char* c = path; *c != '\0'; ++c) to += *c == '/' ? '.' : *c;
         fs::copy(results_ / from, results_ / to, kOver);
         const fs::path document = results_ / to / "bench.context.json";
-        Json json = json_of(document);
-        json[Json::json_pointer(path)] = value;
+        Ordered json = json_of(document);
+        json[Ordered::json_pointer(path)] = value;
         write_text(document, json.dump());
         return to;
     }
@@ -100,7 +100,7 @@ TEST_F(Merge, ShardsHaveTheRowsOfOneRun) {
     ASSERT_EQ(bench("one").code, 0);
     std::vector<std::string> expected;
     for (const BenchRow& row : rows("one")) expected.push_back(key_of(row));
-    const Json one = json_of(results_ / "one/bench.json");
+    const Ordered one = json_of(results_ / "one/bench.json");
     for (const int count : {1, 2, 3, 5}) {
         const std::string whole = fmt::format("whole.{}", count);
         std::vector<std::string> parts = shards(count);
@@ -110,7 +110,7 @@ TEST_F(Merge, ShardsHaveTheRowsOfOneRun) {
         std::vector<std::string> found;
         for (const BenchRow& row : rows(whole)) found.push_back(key_of(row));
         EXPECT_EQ(found, expected) << count;
-        const Json document = json_of(results_ / whole / "bench.json");
+        const Ordered document = json_of(results_ / whole / "bench.json");
         EXPECT_EQ(document.at("context"), one.at("context"));
         EXPECT_EQ(document.at("points"), one.at("points"));
         EXPECT_EQ(document.at("parts").size(), parts.size());
@@ -229,7 +229,7 @@ class Report_Merge : public Merge {
     std::string part(const std::string& whole, int index) const {
         const std::string folder = fmt::format("{}.{}", whole, index);
         fs::copy(results_ / whole, results_ / folder, kOver);
-        Json document = json_of(results_ / whole / "report.json");
+        Ordered document = json_of(results_ / whole / "report.json");
         document["shard"] = fmt::format("{}/2", index);
         write_text(results_ / folder / "report.json", document.dump());
         const TextTable all = parse_csv(text_of_file(results_ / whole / "report.csv"));
@@ -258,8 +258,8 @@ TEST_F(Report_Merge, HasTheTablesOfOneRun) {
                 << name;
         }
         EXPECT_EQ(merged.out, text_of_file(results_ / "one/report.md"));
-        const Json one = json_of(results_ / "one/report.json");
-        const Json whole = json_of(results_ / "whole/report.json");
+        const Ordered one = json_of(results_ / "one/report.json");
+        const Ordered whole = json_of(results_ / "whole/report.json");
         for (const char* key : {"context", "points", "rows"}) EXPECT_EQ(whole.at(key), one.at(key));
         for (const auto& map : fs::directory_iterator(results_ / "one/errors")) {
             EXPECT_TRUE(fs::exists(results_ / "whole/errors" / map.path().filename())) << map;
@@ -276,12 +276,12 @@ TEST_F(Report_Merge, HasTheTablesOfOneRun) {
 TEST_F(Report_Merge, EachShardHasTheDefault) {
     const ChildResult result = report("part", {"--shard", "1/2"});
     ASSERT_EQ(result.code, 0) << result.err;
-    const Json document = json_of(results_ / "part/report.json");
-    const Json& points = document.at("points");
+    const Ordered document = json_of(results_ / "part/report.json");
+    const Ordered& points = document.at("points");
     ASSERT_GT(points.size(), 3u);
-    std::vector<Json> expected = {points[0]}, found;
+    std::vector<Ordered> expected = {points[0]}, found;
     for (std::size_t i = 1; i < points.size(); i += 2) expected.push_back(points[i]);
-    for (const Json& row : document.at("rows")) found.push_back(row.at("setting"));
+    for (const Ordered& row : document.at("rows")) found.push_back(row.at("setting"));
     EXPECT_EQ(found, expected);
     EXPECT_EQ(document.at("shard"), "1/2");
     // The verdict is that of all rows: a setting of another shard may beat the default.
@@ -289,7 +289,7 @@ TEST_F(Report_Merge, EachShardHasTheDefault) {
     const fs::path csv = results_ / whole / "report.csv";
     TextTable table = parse_csv(text_of_file(csv));
     TextTable all{table.columns, {}};
-    for (const Json& point : points) {
+    for (const Ordered& point : points) {
         all.rows.push_back(table.rows.front());
         all.rows.back()[0] = point.get<std::string>();
         if (point == "math native") all.rows.back()[5] = "0.5";
