@@ -11,16 +11,20 @@ typedef struct SrgbTable {
 } SrgbTable;
 #define SRGB_TABLE_OF_ARGS ((SrgbTable){bucket_boundary, bucket_code})
 
+typedef struct SrgbBucket {
+    FV boundary;
+    UV code;
+} SrgbBucket;
+
+static inline SrgbBucket bucket_at(SrgbTable table, UV bucket) {
 #if VW == 1
-#define AT_BUCKETS(T, values, bucket) return (values)[bucket]
+    return (SrgbBucket){table.boundary[bucket], table.code[bucket]};
 #else
-#define AT_BUCKETS(T, values, bucket) \
-    uint index[VW];                   \
-    lane_store(bucket, index);        \
-    return lane_gather(T, values, index)
+    uint index[VW];
+    lane_store(bucket, index);
+    return (SrgbBucket){lane_gather(FV, table.boundary, index), lane_gather(UV, table.code, index)};
 #endif
-static inline FV boundary_of(SrgbTable table, UV bucket) { AT_BUCKETS(FV, table.boundary, bucket); }
-static inline UV code_of(SrgbTable table, UV bucket) { AT_BUCKETS(UV, table.code, bucket); }
+}
 
 #include "kernels/shared/srgb_code.h"
 

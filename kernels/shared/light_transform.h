@@ -25,12 +25,13 @@ SHARED_FN float4 rotated(View view, float4 v, float w) {
 }
 
 SHARED_FN float range_of(Light light) {
-    return max(light.position_range.w, -light.position_range.w);
+    return has_own_range(light) ? light.position_range.w : -light.position_range.w;
 }
 
 // 1/range^2, of a random range, too [1/m^2].
 SHARED_FN float inv_range2_of(ShadeLight light) {
-    return max(light.position_inv_range2.w, -light.position_inv_range2.w);
+    float inv = light.position_inv_range2.w;
+    return has_random_range(light) ? -inv : inv;
 }
 
 // 1/range^2 of light `index`, negative if random. With a seed, lights without a range of their own

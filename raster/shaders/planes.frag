@@ -11,9 +11,12 @@ layout(std430, binding = SRGB_BLOCK) readonly buffer SrgbBuckets {
     float srgb_boundary[SRGB_BUCKETS];
     uint srgb_bucket_code[SRGB_BUCKETS];
 };
+struct SrgbBucket {
+    float boundary;
+    uint code;
+};
 #define SrgbTable uint
-#define boundary_of(table, bucket) srgb_boundary[bucket]
-#define code_of(table, bucket) srgb_bucket_code[bucket]
+#define bucket_at(table, bucket) SrgbBucket(srgb_boundary[bucket], srgb_bucket_code[bucket])
 #include "kernels/shared/srgb_code.h"
 
 layout(location = 0) precise out uvec4 out_planes[ATTACHMENTS];

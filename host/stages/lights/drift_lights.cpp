@@ -12,7 +12,7 @@
 namespace kilolux {
 namespace {
 
-constexpr uint kDigitBits = 8;                                 // of kernels/lights/drift_lights.cl
+constexpr uint kDigitBits = 8;  // of kernels/lights/drift_lights.cl
 constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
 constexpr std::size_t kLeastChunk = 256;  // lights: as many as a chunk has counters
 
