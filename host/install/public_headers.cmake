@@ -53,4 +53,5 @@ foreach(header IN LISTS headers)
   publish(${header} ${header})
 endforeach()
 publish(host/install/kilolux.h kilolux.h)
-file(COPY ${ROOT}/host/lighting/kilolux_c.h DESTINATION ${DESTINATION})
+file(COPY ${ROOT}/host/lighting/kilolux_c.h DESTINATION ${DESTINATION}
+  FILE_PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)  # whatever those of the source are

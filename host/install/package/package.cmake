@@ -50,6 +50,7 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${Python3_VERSION_MINOR})
 # Python writes compiled modules beside these, which dpkg does not know.
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${CMAKE_SOURCE_DIR}/host/install/package/python/postinst
   ${CMAKE_SOURCE_DIR}/host/install/package/python/prerm)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_STRICT_PERMISSION ON)  # whatever those of the source are
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The Python module.
  Renders to numpy arrays and lights G-buffers that are numpy arrays.")
 foreach(package IN LISTS packages)

@@ -97,6 +97,28 @@ TEST(RenderCrop, StatsNameEachTile) {
     }
 }
 
+// The pixels of a crop are held until its file is written.
+TEST(RenderCrop, WhatDoesNotFitIsRefusedBeforeItIsMade) {
+    const TemporaryFolder folder;
+    const std::vector<std::string> whole = {"--resolution", "65536,65536", "--max-memory", "1500M"};
+    for (const std::vector<std::string>& part :
+         {std::vector<std::string>{"--crop", "7,7,8192,8192"}, {"--tiles", "8x8"}}) {
+        std::vector<std::string> words = {
+            "/usr/bin/timeout",
+            "60",
+            program_file(),
+            "render",
+            "grid",
+            "-o",
+            (folder / (part[0] == "--tiles" ? "a.#.png" : "a.png")).string()};
+        words.insert(words.end(), whole.begin(), whole.end());
+        words.insert(words.end(), part.begin(), part.end());
+        const ChildResult result = run_child(words);
+        EXPECT_EQ(result.code, 1) << part[0];
+        EXPECT_TRUE(contains(result.err, "memory: 65536x65536 pixels")) << result.err;
+    }
+}
+
 // The same file, with the same notes.
 TEST(RenderCrop, ATileIsACrop) {
     const TemporaryFolder folder;
