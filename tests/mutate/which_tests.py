@@ -36,7 +36,7 @@ STEPS = (
     (r"shared/light_profile", PROFILES),
     (r"shared/light_tree", TREE),
     (r"shared/shadow", SHADOWS),
-    (r"shared/tone_curve", DISPLAY + BACKGROUND),
+    (r"shared/(tone_curve|srgb_code)", DISPLAY + BACKGROUND),
     (r"shared/(types|view|clusters|cluster_grid)", LISTS + LIGHTING + SURFACES + PICTURES),
     (r"shading/(environment|reflect_environment|fill_background)", BACKGROUND),
     (r"shading/sum_lights", LIGHTING + SHADOWS),

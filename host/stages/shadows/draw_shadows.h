@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "host/gpu/surface_flow.h"
 #include "host/stages/shading/shading_resources.h"
 
 namespace kilolux {
