@@ -59,13 +59,15 @@ static inline MASK lanes_in_cluster(LitItem item, Clusters from, uint i) {
     return lane_mask(item.slice == (UV)(from.clusters[i].slice)) & item.shown;
 }
 
-// FOR_EACH_CLUSTER() of those that hold lanes of the item: `mine`.
+// FOR_EACH_CLUSTER() of those that hold lanes of the item: `mine`. `break` and `continue` both go
+// to the next cluster: use neither.
 #define FOR_EACH_CLUSTER_OF(item, i, mine, from, tile) \
     FOR_EACH_CLUSTER(i, from, tile)                    \
     for (MASK mine = lanes_in_cluster(item, from, i); lane_any(mine); mine = (MASK)(0))
 
-// How kernels of lit pixels begin: they declare what their parameters make. The G-buffer `g`, the
-// work-item's place `at` and its `item` of pixels of a row; work-items below the planes end.
+// How kernels of lit pixels begin: these macros declare, from the parameters, what follows. The
+// G-buffer `g`, the work-item's place `at` and its `item` of pixels of a row; work-items below the
+// planes end.
 #define BEGIN_ROW                         \
     GBuffer g = GBUFFER_OF_ARGS;          \
     ItemPlace at = place_in_planes(view); \

@@ -33,7 +33,7 @@ namespace kilolux {
 // the same width.
 #define UNLIT_ROUGHNESS 0.0f
 #define LIT_ROUGHNESS_MIN (1.0f / 255.0f)
-// In place of a roughness: that of repack_gbuffer's albedo, its 4th channel.
+// In place of a roughness: repack_gbuffer takes the albedo's 4th channel.
 #define ROUGHNESS_OF_ALBEDO (-1.0f)
 // packed, optional: uchar4, sRGB-encoded emissive / emissive_scale, metallic in the 4th
 #define PLANE_MATERIAL 3

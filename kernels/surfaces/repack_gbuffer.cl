@@ -57,8 +57,8 @@ static inline uint normal_code(View view, float4 v, uint is_world) {
 }
 
 // depth: bits of a float or 24; it, normal and albedo are [height][pitch], pitch in pixels. invert:
-// 1: the depth plane holds 1 - d. world_normals: 0: they are in view space. roughness: or
-// ROUGHNESS_OF_ALBEDO.
+// 1: the depth plane holds 1 - d. world_normals: 0: they are in view space. roughness: of
+// all surfaces, or ROUGHNESS_OF_ALBEDO.
 #define SOURCE_ARGS                                                               \
     SOURCE(uint)                                                                  \
     depth, SOURCE(NORMAL) normal, SOURCE(ALBEDO) albedo, uint pitch, uint invert, \

@@ -64,8 +64,8 @@ std::string shard_meaning(const std::string& parts) {
     std::vector<std::string> names;
     for (const ArrayVariables& row : kArrayVariables) names.emplace_back(row.scheduler);
     return fmt::format(
-        "Every N-th {} from the I-th on, counted from 0. auto: I and N by the variables of {}; "
-        "auto/N: I alone",
+        "Every N-th {} from the I-th on, counted from 0. auto takes I and N from the variables of "
+        "{}; auto/N takes only I",
         parts, joined(names));
 }
 

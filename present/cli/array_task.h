@@ -29,10 +29,10 @@ inline constexpr auto kArrayVariables = std::to_array<ArrayVariables>({
     {"GNU parallel", "PARALLEL_SEQ", nullptr, nullptr, nullptr, 1},
 });
 
-/// What --shard means where it takes every N-th of `parts`, such as "frame or tile".
+/// The help text of --shard; `parts` is what is divided, such as "frame or tile".
 std::string shard_meaning(const std::string& parts);
 
-/// Says which variable told the shard, where one did.
+/// Notes the variable that gave the shard, if there is one.
 void note_shard(const Shard& shard);
 
 /// This task's shard of as many as the scheduler has tasks. Throws UsageError that starts with

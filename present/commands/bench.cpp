@@ -27,6 +27,8 @@ void check(const BenchOptions& o) {
         throw UsageError("--max-error: goes with sweeps, not with --tune");
     refuse_if(o.shard.count > 1 && (o.tune || !o.jobs.empty() || !o.tables.empty()),
               "--shard: goes with sweeps, not with --tune, --job or --table");
+    refuse_if(o.shard.count > 1 && o.budget.max_error.has_value(),
+              "--shard: --max-error would choose other settings in each shard");
     if (o.resume && !o.jobs.empty()) throw UsageError("--resume: goes with sweeps, not with --job");
     if (o.resume && o.output.empty()) throw UsageError("--resume: needs the folder of -o");
 }

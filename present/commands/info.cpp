@@ -8,6 +8,7 @@
 #include "host/render/plan/kernel_choice.h"
 #include "host/render/renderer.h"
 #include "host/scene/gltf/files.h"
+#include "host/scene/lights/light_kinds.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/options.h"
 #include "present/cli/scene_choice.h"
@@ -36,16 +37,15 @@ Json box_json(const Box& box) {
 }
 
 Json light_counts(const Scene& scene, const LightOptions& generated) {
-    std::size_t counts[3] = {};
-    for (const SceneLight& light : scene.lights) ++counts[static_cast<std::size_t>(light.type)];
+    Json out;
+    for (const LightKind& kind : kLightKinds)
+        out[kind.name] = std::ranges::count(scene.lights, kind.type, &SceneLight::type);
     const LightScale scale = automatic_light_scale(generated, scene);
-    return {{"point", counts[0]},
-            {"spot", counts[1]},
-            {"directional", counts[2]},
-            {"generated", generated.count},
-            {"generated_range_m", scale.radius},
-            {"generated_intensity_cd", scale.intensity},
-            {"min_distance_m", light_d_min(scene)}};
+    out["generated"] = generated.count;
+    out["generated_range_m"] = scale.radius;
+    out["generated_intensity_cd"] = scale.intensity;
+    out["min_distance_m"] = light_d_min(scene);
+    return out;
 }
 
 Json profiles_json(const Scene& scene) {

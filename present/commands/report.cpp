@@ -190,7 +190,8 @@ void take_devices(ReportOptions& options) {
     if (options.shard.count == 1) return;
     refuse_if(!options.devices.empty(), "--shard: a shard measures on one device");
     refuse_if(options.budget.max_error.has_value(), "--shard: --max-error needs all settings");
-    refuse_if(options.check_default, "--shard: --check-default needs all settings; merge takes it");
+    refuse_if(options.check_default,
+              "--check-default: needs all settings; give it to kilolux merge instead");
 }
 
 void run_report(ReportOptions& options, const CLI::App& command) {

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "host/base/error.h"
+#include "host/base/text.h"
 #include "host/scene/gltf/mesh/directions.h"
 #include "host/scene/lights/light_kinds.h"
 
@@ -57,7 +58,9 @@ std::vector<Vector> vectors_of(const Array<float>& array, py::ssize_t rows,
 
 LightType type_of(const std::string& kind) {
     if (const LightKind* found = find_light_kind(kind)) return found->type;
-    throw Error("lights: kind '" + kind + "' is none of point, spot, directional");
+    std::vector<std::string> names;
+    for (const LightKind& row : kLightKinds) names.emplace_back(row.name);
+    throw Error("lights: kind '" + kind + "' is none of " + joined(names));
 }
 
 glm::dvec3 row(const Array<double>& array, py::ssize_t i) {

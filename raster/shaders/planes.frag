@@ -32,7 +32,6 @@ uvec4 stored[ATTACHMENTS];
 #define emissive_scale_of(to) EMISSIVE_SCALE
 #define encode_srgb(to, v) srgb_code_by_table(0u, v)
 
-
 void store_plane_uint(GBufferTarget to, uint plane, uint value) {
     stored[kSlots[plane] / 4u][kSlots[plane] % 4u] = value;
 }

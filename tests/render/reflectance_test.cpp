@@ -18,7 +18,7 @@ const Layer& named_layer(const Frame& frame, const std::string& name) {
     for (const Layer& l : frame.aovs) {
         if (l.name == name) return l;
     }
-    throw std::runtime_error("no named_layer " + name);
+    throw std::runtime_error("no layer " + name);
 }
 
 double worst_relative(const Frame& a, const Frame& b) {

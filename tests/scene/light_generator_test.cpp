@@ -57,7 +57,7 @@ double coverage(const std::vector<SceneLight>& lights, const Box& box, int point
     return sum / points;
 }
 
-// Mean rec709_luminance of a surface of albedo 0.5, over points of the box and random normals. Each
+// Mean luminance of a surface of albedo 0.5, over points of the box and random normals. Each
 // point's radiance is capped at 4: a surface a hand's breadth from a lamp is overexposed anyway,
 // and without a cap the mean of a d^-2 law needs very many points.
 double exposure(const std::vector<SceneLight>& lights, const Box& box, int points) {

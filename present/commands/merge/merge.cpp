@@ -30,18 +30,21 @@ fs::path csv_of(const fs::path& result) {
 Result read_result(const fs::path& result) {
     Result out{csv_of(result), {}, {}};
     fs::path document = context_file(out.csv);
+    const std::string text = read_text(out.csv);
     try {
-        out.table = parse_csv(read_text(out.csv));
+        out.table = parse_csv(text);
     } catch (const Error& error) {
         throw Error(fmt::format("{}: {}", out.csv.string(), error.what()));
     }
     if (!is_bench_table(out.table)) document = fs::path(out.csv).replace_extension(".json");
     out.document = Json::parse(read_text(document), nullptr, false);
-    if (out.document.is_object() && out.document.contains("context") &&
-        out.document.contains("points")) {
-        return out;
+    if (!out.document.is_object() || !out.document.contains("context") ||
+        !out.document.contains("points")) {
+        throw Error(document.string() + ": has no context or no list of the sweep's points");
     }
-    throw Error(document.string() + ": has no context or no list of the sweep's points");
+    if (is_bench_table(out.table) && !out.document.contains("limits"))
+        throw Error(document.string() + ": has no limits: the run did not end; --resume ends it");
+    return out;
 }
 
 // Throws where a result is of another sweep than the first one, or was measured under other
@@ -76,12 +79,13 @@ void run_merge(MergeOptions& options) {
         const fs::path folder = fs::absolute(results.back().csv).parent_path();
         std::error_code none;
         refuse_if(fs::equivalent(folder, options.output, none),
-                  "--output: " + options.output.string() + " has a result that is merged");
+                  "--output: " + options.output.string() +
+                      " holds one of the results to merge; choose another folder");
     }
     const bool is_bench = is_bench_table(results.front().table);
     for (const Result& result : results) {
         if (is_bench_table(result.table) == is_bench) continue;
-        throw Error(fmt::format("{}: one of bench and report, and {} is the other",
+        throw Error(fmt::format("{}: bench and report cannot be merged, and {} is of the other",
                                 results.front().csv.string(), result.csv.string()));
     }
     refuse_if(!is_bench && options.keep_differences,

@@ -24,7 +24,7 @@ constexpr const char* kTextColumns[] = {"setting", "axis", "options", "pareto", 
 
 std::size_t place_of(const Names& names, const std::string& name) {
     const auto found = std::ranges::find(names, name);
-    if (found == names.end()) throw Error("a report lacks the column '" + name + "'");
+    if (found == names.end()) throw Error("lacks the column '" + name + "'");
     return static_cast<std::size_t>(found - names.begin());
 }
 
@@ -62,6 +62,17 @@ TextTable merged_table(const std::vector<Result>& results, const std::vector<Res
             fields.push_back(field_of(results[result].table, row, column));
     }
     return out;
+}
+
+// Throws Error that names the file unless it is the table of a report.
+void require_report(const Result& result) {
+    try {
+        place_of(result.table.columns, kBeforeStages);
+        place_of(result.table.columns, kAfterStages);
+        report_rows(result.table);
+    } catch (const Error& error) {
+        throw Error(result.csv.string() + ": " + error.what());
+    }
 }
 
 // Every shard has the default, with whose frames its own are paired: times relative to it compare,
@@ -122,6 +133,7 @@ void copy_error_maps(const fs::path& folder, const std::vector<Result>& results,
 }  // namespace
 
 void merge_report(const MergeOptions& options, std::vector<Result> results) {
+    std::ranges::for_each(results, require_report);
     keep_own_rows(results);
     const std::vector<ResultRow> order = rows_in_order(results);
     const TextTable texts = merged_table(results, order);

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
+#include <map>
 #include <unordered_map>
 
 #include "host/base/error.h"
@@ -16,35 +16,40 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-bool have_same_conditions(const Result& a, const Result& b) {
-    return std::ranges::all_of(kConditionColumns, [&](const ConditionColumn& column) {
-        return condition_of(a, column) == condition_of(b, column);
-    });
+// The conditions under which a result was measured.
+std::string conditions_of(const Result& result) {
+    std::string out;
+    for (const ConditionColumn& column : kConditionColumns)
+        out += fmt::format("{} {}, ", column.name, condition_of(result, column));
+    return out + "tuning " + result.document.at("context").at("tuning").dump();
 }
 
-// Throws where two results measured a point, of which these are the rows, under the same
-// conditions.
-void refuse_doubled(const std::vector<Result>& results, const std::string& point,
-                    const std::vector<ResultRow>& rows) {
-    std::set<std::size_t> seen;
+// The result of these rows that was measured under each conditions. Throws where two were.
+std::map<std::string, std::size_t> result_by_conditions(const std::vector<Result>& results,
+                                                        const std::string& point,
+                                                        const std::vector<ResultRow>& rows) {
+    std::map<std::string, std::size_t> out;
     for (const ResultRow& row : rows) {
-        if (!seen.insert(row.result).second) continue;
-        for (const std::size_t other : seen) {
-            const Result &a = results[other], &b = results[row.result];
-            if (other == row.result || !have_same_conditions(a, b)) continue;
-            throw Error(fmt::format("{} and {}: both have the point '{}'", a.csv.string(),
-                                    b.csv.string(), point));
-        }
+        const auto [found, is_new] =
+            out.try_emplace(conditions_of(results[row.result]), row.result);
+        if (is_new || found->second == row.result) continue;
+        throw Error(fmt::format("{} and {}: both have the point '{}'",
+                                results[found->second].csv.string(),
+                                results[row.result].csv.string(), point));
     }
+    return out;
 }
 
-[[noreturn]] void refuse_missing(const std::vector<std::string>& missing, std::size_t points) {
+// Throws where points are missing; `of` names the results, "" for all.
+void refuse_missing(const std::vector<std::string>& missing, std::size_t points,
+                    const std::string& of) {
+    if (missing.empty()) return;
     constexpr std::size_t kNamed = 3;
     std::string names;
     for (std::size_t i = 0; i < std::min(kNamed, missing.size()); ++i)
         names += fmt::format("{}'{}'", i > 0 ? ", " : "", missing[i]);
-    throw Error(fmt::format("{} of {} points are in no result: {}{}", missing.size(), points, names,
-                            missing.size() > kNamed ? ", ..." : ""));
+    throw Error(fmt::format("{} of {} points are in no result{}: {}{}", missing.size(), points, of,
+                            names, missing.size() > kNamed ? ", ..." : ""));
 }
 
 // `was` and `is` as a list, without repetition.
@@ -70,15 +75,19 @@ std::vector<ResultRow> rows_in_order(const std::vector<Result>& results) {
             place->second.push_back({i, row});
         }
     }
+    std::map<std::string, std::vector<std::string>> missing;  // by conditions
+    for (const Result& result : results) missing[conditions_of(result)];
     std::vector<ResultRow> out;
-    std::vector<std::string> missing;
     for (const std::string& point : points) {
         const std::vector<ResultRow>& rows = found[point];
-        if (rows.empty()) missing.push_back(point);
-        refuse_doubled(results, point, rows);
+        const auto measured = result_by_conditions(results, point, rows);
+        for (auto& [conditions, names] : missing) {
+            if (!measured.contains(conditions)) names.push_back(point);
+        }
         out.insert(out.end(), rows.begin(), rows.end());
     }
-    if (!missing.empty()) refuse_missing(missing, points.size());
+    for (const auto& [conditions, names] : missing)
+        refuse_missing(names, points.size(), missing.size() > 1 ? " of " + conditions : "");
     return out;
 }
 
@@ -92,6 +101,7 @@ Json merged_document(const std::vector<Result>& results) {
     for (const Result& result : results) {
         const Json values = result.document.at("context").flatten();
         for (const auto& [path, value] : values.items()) {
+            if (value.is_null()) continue;  // an empty object or list
             const Json::json_pointer place(path);
             if (!context.contains(place) || context[place] != value)
                 context[place] = listed(context.contains(place) ? context[place] : Json(), value);

@@ -34,10 +34,11 @@ struct ResultRow {
 };
 
 /// All rows in the order of the sweep, as one run would have written them. Throws Error where a
-/// point lacks, is none of the sweep's or is in two results of the same commit, device and driver.
+/// point is missing, does not belong to the sweep, or two results of the same commit, device, driver
+/// and tuning have it.
 std::vector<ResultRow> rows_in_order(const std::vector<Result>& results);
 
-/// The columns that tell results apart which were measured under other conditions, and theirs.
+/// Columns that tell results of different conditions apart.
 struct ConditionColumn {
     const char* name;
     const char* path;  // in the context

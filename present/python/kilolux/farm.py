@@ -21,7 +21,7 @@ _Job = tuple[str, "str | os.PathLike[str] | Scene", dict[str, Any]]  # a digest,
 
 
 def _same(job: _Job) -> _Job:
-    """A task of its own, so that a worker gets the scene once, and again where all that had it died."""
+    """A task of its own: a worker receives the scene once. Dask runs it again if all workers that held it have died."""
     return job
 
 

@@ -28,7 +28,7 @@ View view_with(uint width, uint height) {
 
 std::size_t size_of(const View& view) { return std::size_t{view.stride} * view.height; }
 
-// PixelLight of a picture's pixel, the same in all channels.
+// Light of a picture's pixel, the same in all channels.
 using PixelLight = std::function<float(uint x, uint y)>;
 
 // Adds pictures to the stage and keeps its results.

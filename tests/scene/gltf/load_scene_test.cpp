@@ -14,7 +14,6 @@ namespace {
 
 using nlohmann::json;
 
-// float32 arithmetic of a few operations on values near 1.
 TEST(LoadScene, ReadsATriangleFromGltfAndFromGlb) {
     const GltfBuilder file = triangle_file();
     const TempFolder folder;
