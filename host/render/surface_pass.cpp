@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "host/base/log.h"
+#include "host/gpu/repeat_until_fits.h"
 #include "host/render/host_stages.h"
 
 namespace kilolux {
@@ -112,11 +113,8 @@ bool SurfacePass::fits(FrameStats& stats) {
 }
 
 GBuffer SurfacePass::draw(const Sample& sample, Measured out) {
-    GBuffer gbuffer;
-    do {
-        gbuffer = enqueue(sample, out);
-    } while (!fits(out.stats));
-    return gbuffer;
+    return repeat_until_fits(
+        out.timer, [&] { return enqueue(sample, out); }, [&] { return fits(out.stats); });
 }
 
 GBuffer SurfacePass::draw_planes(const Sample& sample, Measured out) {
