@@ -13,7 +13,7 @@
 namespace kilolux {
 namespace {
 
-constexpr int kSize = 24;
+constexpr int kEdgeOnSize = 24;
 
 // Whole numbers, so that the determinant is exact.
 struct Around {
@@ -55,17 +55,17 @@ TEST(EdgeOnTriangles, AroundTheEyeCoverTheirSideOfIt) {
     std::mt19937 random(3);
     Camera camera = look_at({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 1.2);
     camera.z_near = 1e-9;
-    const View view = view_of(camera, kSize, kSize);
+    const View view = view_of(camera, kEdgeOnSize, kEdgeOnSize);
     int covered = 0;
     for (int i = 0; i < 40; ++i) {
         const Around triangle = triangle_around_the_eye(random);
         TriangleMesh mesh{{}, {{0, 1, 2}}};
         for (const glm::i64vec3& v : triangle.v) mesh.vertices.push_back(glm::vec3(v) / 8192.0f);
-        const std::vector<int> found =
-            triangle_coverage(test_gpu(), scene_of_triangles(mesh), camera, kSize, kSize);
+        const std::vector<int> found = triangle_coverage(test_gpu(), scene_of_triangles(mesh),
+                                                         camera, kEdgeOnSize, kEdgeOnSize);
         for (std::size_t pixel = 0; pixel < found.size(); ++pixel) {
-            const double x = static_cast<double>(pixel % kSize) + 0.5;
-            const double y = static_cast<double>(pixel / kSize) + 0.5;
+            const double x = static_cast<double>(pixel % kEdgeOnSize) + 0.5;
+            const double y = static_cast<double>(pixel / kEdgeOnSize) + 0.5;
             const Cover expected =
                 covers(triangle, {x * view.ray.x + view.ray.y, y * view.ray.z + view.ray.w, -1.0});
             if (expected == Cover::unsure) continue;

@@ -16,7 +16,7 @@ using Parameter = std::tuple<HardCase, int>;
 class HardCases : public testing::TestWithParam<Parameter> {};
 
 // All widths share one context and queue. KILOLUX_TEST_DEVICE chooses the device as --device does.
-Gpu test_gpu(int lanes) {
+Gpu gpu_of_lanes(int lanes) {
     const char* choice = std::getenv("KILOLUX_TEST_DEVICE");
     static const Gpu gpu(choose_device(choice != nullptr ? choice : ""));
     return gpu.with_lanes(lanes);
@@ -25,7 +25,7 @@ Gpu test_gpu(int lanes) {
 TEST_P(HardCases, HoldsItsThreshold) {
     const auto& [hard_case, lanes] = GetParam();
     Findings findings;
-    hard_case.run(test_gpu(lanes), findings);
+    hard_case.run(gpu_of_lanes(lanes), findings);
     for (const Finding& finding : findings.all()) {
         EXPECT_TRUE(finding.passed()) << hard_case.topic << ": " << finding_text(finding);
     }

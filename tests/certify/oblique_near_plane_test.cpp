@@ -10,7 +10,7 @@
 namespace kilolux {
 namespace {
 
-constexpr int kSize = 32;
+constexpr int kObliqueSize = 32;
 
 // The ids of the pixels of a wall 2 m before the eye.
 std::vector<uint> wall_ids(const View& oblique, const Camera& camera, int group) {
@@ -22,7 +22,7 @@ std::vector<uint> wall_ids(const View& oblique, const Camera& camera, int group)
     const SurfaceFeatures features = surface_features(scene, {}, 1);
     SurfaceScene surfaces(gpu, tuning, scene, features);
     TriangleIds ids(gpu, tuning, scene, features);
-    const std::vector<Draw> draws = ids.visible(camera, kSize, kSize);
+    const std::vector<Draw> draws = ids.visible(camera, kObliqueSize, kObliqueSize);
     StageTimer timer;
     return download(gpu, ids.draw(surfaces.at(draws), draws, oblique, timer));
 }
@@ -33,12 +33,12 @@ TEST(ObliqueNearPlane, ShowsWhatLiesBehindIt) {
     for (const float step : {0.01f, -0.01f}) {
         const float first = step > 0.0f ? 0.0f : 0.32f;
         for (const bool by_row : {false, true}) {
-            View view = view_of(camera, kSize, kSize);
+            View view = view_of(camera, kObliqueSize, kObliqueSize);
             view.depth = {0.4f, by_row ? 0.0f : step, by_row ? step : 0.0f, first};
             for (const int group : {1, 64}) {
                 const std::vector<uint> ids = wall_ids(view, camera, group);
-                for (uint y = 0; y < kSize; ++y) {
-                    for (uint x = 0; x < kSize; ++x) {
+                for (uint y = 0; y < kObliqueSize; ++y) {
+                    for (uint x = 0; x < kObliqueSize; ++x) {
                         const double place = (by_row ? y : x) + 0.5;
                         const bool behind = 0.4 + first + step * place > 0.5;
                         ASSERT_EQ(ids[y * view.stride + x] != 0, behind)

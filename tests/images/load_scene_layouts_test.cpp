@@ -57,14 +57,14 @@ TEST_P(LoadSceneLayouts, AllArrive) {
     std::mt19937 random(3);
     std::uniform_int_distribution<int> byte(0, 255);
     for (const int height : {1, 63, 64, 65, 131}) {
-        constexpr int kWidth = 37;
-        Blob pixels(static_cast<std::size_t>(kWidth * height) * channels);
+        constexpr int kLayoutWidth = 37;
+        Blob pixels(static_cast<std::size_t>(kLayoutWidth * height) * channels);
         for (unsigned char& value : pixels) value = static_cast<unsigned char>(byte(random));
         GltfBuilder file = triangle_file();
-        const int image = file.add_texture(encode(how, kWidth, height, pixels), "image/png");
+        const int image = file.add_texture(encode(how, kLayoutWidth, height, pixels), "image/png");
         file.add("materials", {{"emissiveTexture", {{"index", image}}}});
         const Scene scene = load(file);
-        EXPECT_EQ(scene.images.at(0).width, kWidth);
+        EXPECT_EQ(scene.images.at(0).width, kLayoutWidth);
         EXPECT_EQ(scene.images.at(0).height, height);
         EXPECT_TRUE(scene.images.at(0).rgba == as_rgba(pixels, channels)) << height << " rows";
     }

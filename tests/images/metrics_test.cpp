@@ -19,15 +19,16 @@ std::vector<float> random_values(std::size_t count, unsigned seed) {
 
 TEST(HdrMetrics, AgreesWithOpenImageIo) {
     constexpr double kFloat = 1e-7;  // it subtracts in float32
-    constexpr int kWidth = 61, kHeight = 37;
-    std::vector<float> a = random_values(3 * kWidth * kHeight, 1);
-    std::vector<float> b = random_values(3 * kWidth * kHeight, 2);
-    a[3 * (kWidth * 20 + 11) + 1] = 5.0f;
-    const OIIO::ImageSpec spec(kWidth, kHeight, 3, OIIO::TypeDesc::FLOAT);
+    constexpr int kNoiseWidth = 61, kNoiseHeight = 37;
+    std::vector<float> a = random_values(3 * kNoiseWidth * kNoiseHeight, 1);
+    std::vector<float> b = random_values(3 * kNoiseWidth * kNoiseHeight, 2);
+    a[3 * (kNoiseWidth * 20 + 11) + 1] = 5.0f;
+    const OIIO::ImageSpec spec(kNoiseWidth, kNoiseHeight, 3, OIIO::TypeDesc::FLOAT);
     const auto oiio = OIIO::ImageBufAlgo::compare(OIIO::ImageBuf(spec, a.data()),
                                                   OIIO::ImageBuf(spec, b.data()), 0.1f, 0.1f);
-    const HdrMetrics m = compare_hdr(rgb_image_of(kWidth, kHeight, a),
-                                     rgb_image_of(kWidth, kHeight, b), {.psnr_peak = 5.0});
+    const HdrMetrics m =
+        compare_hdr(rgb_image_of(kNoiseWidth, kNoiseHeight, a),
+                    rgb_image_of(kNoiseWidth, kNoiseHeight, b), {.psnr_peak = 5.0});
     EXPECT_NEAR(m.absolute.mean, oiio.meanerror, kFloat);
     EXPECT_NEAR(m.rmse, oiio.rms_error, kFloat);
     EXPECT_NEAR(m.psnr_db, oiio.PSNR, kFloat) << "its peak is the largest value of either picture";

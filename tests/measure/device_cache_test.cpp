@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 constexpr CacheKind kKind = {"test", 3};
 
-DeviceInfo device() {
+DeviceInfo cached_device() {
     DeviceInfo info;
     info.name = "a device";
     info.driver = "1.0";
@@ -30,14 +30,14 @@ class DeviceCacheOwner : public CacheSandbox {
  protected:
     void SetUp() override {
         CacheSandbox::SetUp();
-        write_device_cache(device(), kKind, values());
-        file_ = device_cache_file(device(), kKind);
-        ASSERT_EQ(read_device_cache(device(), kKind), values());
+        write_device_cache(cached_device(), kKind, values());
+        file_ = device_cache_file(cached_device(), kKind);
+        ASSERT_EQ(read_device_cache(cached_device(), kKind), values());
     }
     void expect_unused_and_made_anew(const std::string& what) {
-        EXPECT_FALSE(read_device_cache(device(), kKind)) << what;
-        write_device_cache(device(), kKind, values());
-        EXPECT_EQ(read_device_cache(device(), kKind), values()) << what;
+        EXPECT_FALSE(read_device_cache(cached_device(), kKind)) << what;
+        write_device_cache(cached_device(), kKind, values());
+        EXPECT_EQ(read_device_cache(cached_device(), kKind), values()) << what;
     }
     fs::path file_;
 };
@@ -64,7 +64,7 @@ TEST_F(DeviceCacheOwner, OnlyTheUsersOwnFilesAreRead) {
     expect_unused_and_made_anew("a pipe");
     fs::remove(file_);
     fs::create_directory(file_);
-    EXPECT_FALSE(read_device_cache(device(), kKind));
+    EXPECT_FALSE(read_device_cache(cached_device(), kKind));
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace kilolux {
 namespace {
 
-DeviceInfo device_named(const std::string& name) {
+DeviceInfo budget_device(const std::string& name) {
     DeviceInfo device;
     device.name = name;
     device.driver = "1.2.3";
@@ -117,7 +117,7 @@ TEST(ErrorBudget, EveryMetricReadsItsOwnError) {
 
 class StoredChoice : public CacheSandbox {
  protected:
-    DeviceInfo device_ = device_named("cpu");
+    DeviceInfo device_ = budget_device("cpu");
     std::vector<ReportSetting> candidates_ = [] {
         std::vector<ReportSetting> out;
         for (const ReportRow& r : some_rows()) out.push_back(r.setting);
@@ -138,7 +138,7 @@ TEST_F(StoredChoice, ComesBackForItsKeyAndDeviceOnly) {
     EXPECT_EQ(found->relative, 0.9);
     EXPECT_EQ(found->error_size, (std::array{64, 36}));
     EXPECT_FALSE(stored_choice(device_, "scene 2", candidates_));
-    EXPECT_FALSE(stored_choice(device_named("gpu"), "scene", candidates_));
+    EXPECT_FALSE(stored_choice(budget_device("gpu"), "scene", candidates_));
     candidates_.erase(candidates_.begin() + 2);
     EXPECT_FALSE(stored_choice(device_, "scene", candidates_)) << "no such setting any more";
 }

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Plot sample() {
+Plot sample_plot() {
     return {.title = "Speed & error: 'quoted' \"twice\" $HOME `id` a_b^c",
             .x_label = "frame [ms]",
             .y_label = "mean FLIP",
@@ -54,7 +54,7 @@ class PlotFolder : public testing::Test {
 };
 
 TEST(PlotScript, KeepsWhatAxesCanShow) {
-    const Plot ready = drawable(sample());
+    const Plot ready = drawable(sample_plot());
     ASSERT_EQ(ready.series.size(), 3u) << "two series and the front";
     EXPECT_EQ(ready.series[0].points.size(), 3u);
     EXPECT_EQ(ready.series[1].points.size(), 1u);
@@ -82,7 +82,7 @@ TEST(PlotScript, DrawsErrorBarsAndTheSubtitle) {
 }
 
 TEST_F(PlotFolder, WritesFourFilesAndNothingElse) {
-    write_plot(sample(), folder_ / "it's a plot");
+    write_plot(sample_plot(), folder_ / "it's a plot");
     const std::string png = bytes_of(folder_ / "it's a plot.png");
     EXPECT_EQ(png.substr(1, 3), "PNG");
     EXPECT_GT(png.size(), 4000u);
@@ -104,14 +104,14 @@ TEST_F(PlotFolder, LinearAxesAndOnePointWork) {
 }
 
 TEST_F(PlotFolder, NoPointIsAnError) {
-    Plot plot = sample();
+    Plot plot = sample_plot();
     plot.series = {{"empty", {}}, {"bad", {{0, 1}}}};
     EXPECT_THROW(write_plot(plot, folder_ / "p"), Error);
     EXPECT_EQ(file_count(), 0u);
 }
 
 TEST_F(PlotFolder, MissingFolderIsAnError) {
-    EXPECT_THROW(write_plot(sample(), folder_ / "no such" / "p"), Error);
+    EXPECT_THROW(write_plot(sample_plot(), folder_ / "no such" / "p"), Error);
 }
 
 TEST_F(PlotFolder, WithoutGnuplotThereAreNoPlots) {
@@ -149,7 +149,7 @@ TEST_F(PlotFolder, FailingGnuplotIsAnErrorWithItsMessage) {
     setenv("PATH", fake.c_str(), 1);
     std::string message;
     try {
-        write_plot(sample(), folder_ / "p");
+        write_plot(sample_plot(), folder_ / "p");
     } catch (const Error& error) {
         message = error.what();
     }

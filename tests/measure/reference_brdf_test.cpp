@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
 namespace kilolux {
 namespace {
 
-const double kPi = std::acos(-1.0);
 const glm::dvec3 kUp{0.0, 0.0, 1.0};
 
 SurfaceSample surface(double roughness, double metallic, glm::dvec3 albedo = {0.8, 0.5, 0.2}) {
@@ -30,18 +30,18 @@ double directional_albedo(const SurfaceSample& s, const glm::dvec3& to_eye, Shad
     constexpr int kTheta = 400, kPhi = 400;
     double sum = 0.0;
     for (int i = 0; i < kTheta; ++i) {
-        const double theta = (i + 0.5) * (kPi / 2) / kTheta;
+        const double theta = (i + 0.5) * (std::numbers::pi / 2) / kTheta;
         for (int j = 0; j < kPhi; ++j) {
-            const glm::dvec3 l = direction(theta, (j + 0.5) * 2 * kPi / kPhi);
+            const glm::dvec3 l = direction(theta, (j + 0.5) * 2 * std::numbers::pi / kPhi);
             sum += reference_brdf(s, to_eye, l, model).x * std::cos(theta) * std::sin(theta);
         }
     }
-    return sum * (kPi / 2 / kTheta) * (2 * kPi / kPhi);
+    return sum * (std::numbers::pi / 2 / kTheta) * (2 * std::numbers::pi / kPhi);
 }
 
 TEST(ReferenceBrdf, LambertReflectsItsAlbedo) {
     const SurfaceSample s = surface(0.5, 0.0);
-    EXPECT_DOUBLE_EQ(reference_brdf(s, kUp, kUp, Shading::lambert).y, 0.5 / kPi);
+    EXPECT_DOUBLE_EQ(reference_brdf(s, kUp, kUp, Shading::lambert).y, 0.5 / std::numbers::pi);
     EXPECT_NEAR(directional_albedo(s, kUp, Shading::lambert), 0.8, 1e-5);
 }
 
@@ -51,8 +51,8 @@ TEST(ReferenceBrdf, PbrStraightAheadIsTheClosedForm) {
             const SurfaceSample s = surface(roughness, metallic);
             const double alpha = std::pow(std::max(roughness, 0.045), 2);
             const double f0 = 0.04 * (1 - metallic) + 0.8 * metallic;
-            const double diffuse = (1 - metallic) * 0.8 / kPi * (1 - f0);
-            const double expected = diffuse + f0 / (4 * kPi * alpha * alpha);
+            const double diffuse = (1 - metallic) * 0.8 / std::numbers::pi * (1 - f0);
+            const double expected = diffuse + f0 / (4 * std::numbers::pi * alpha * alpha);
             const double value = reference_brdf(s, kUp, kUp, Shading::pbr).x;
             EXPECT_NEAR(value, expected, 1e-12 * expected) << roughness << ' ' << metallic;
         }
@@ -70,7 +70,8 @@ TEST(ReferenceBrdf, PbrMatchesTheFormulasInAngles) {
         const double a = s.roughness * s.roughness;
         // GGX and Smith's lambda in tangents, from Walter et al. 2007 and Heitz 2014.
         const double tan2_h = std::pow(std::tan(std::acos(h.z)), 2);
-        const double d = 1 / (kPi * a * a * std::pow(h.z, 4) * std::pow(1 + tan2_h / (a * a), 2));
+        const double d =
+            1 / (std::numbers::pi * a * a * std::pow(h.z, 4) * std::pow(1 + tan2_h / (a * a), 2));
         const auto lambda = [&](const glm::dvec3& w) {
             const double tan2 = std::pow(std::tan(std::acos(w.z)), 2);
             return (std::sqrt(1 + a * a * tan2) - 1) / 2;
@@ -79,7 +80,7 @@ TEST(ReferenceBrdf, PbrMatchesTheFormulasInAngles) {
         const double f0 = 0.04 + (0.8 - 0.04) * s.metallic;
         const double f = f0 + (1 - f0) * std::pow(1 - glm::dot(v, h), 5);
         const double expected =
-            (1 - s.metallic) * 0.8 / kPi * (1 - f) + f * d * g / (4 * v.z * l.z);
+            (1 - s.metallic) * 0.8 / std::numbers::pi * (1 - f) + f * d * g / (4 * v.z * l.z);
         EXPECT_NEAR(reference_brdf(s, v, l, Shading::pbr).x, expected, 1e-9 * expected) << i;
     }
 }
@@ -93,8 +94,9 @@ TEST(ReferenceBrdf, BlinnPhongMatchesThePowerOfTheCosine) {
         const glm::dvec3 l = direction(1.5 * unit(random), 6.28 * unit(random));
         const double n = 2 / std::pow(s.roughness, 4) - 2;
         const double f0 = 0.04 + (0.8 - 0.04) * s.metallic;
-        const double expected = (1 - s.metallic) * 0.8 / kPi +
-                                f0 * (n + 2) / (8 * kPi) * std::pow(glm::normalize(v + l).z, n);
+        const double expected =
+            (1 - s.metallic) * 0.8 / std::numbers::pi +
+            f0 * (n + 2) / (8 * std::numbers::pi) * std::pow(glm::normalize(v + l).z, n);
         EXPECT_NEAR(reference_brdf(s, v, l, Shading::blinn_phong).x, expected, 1e-9 * expected)
             << i;
     }

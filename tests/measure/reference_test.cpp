@@ -5,14 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "host/base/error.h"
 
 namespace kilolux {
 namespace {
-
-const double kPi = std::acos(-1.0);
 
 // One pixel at 5 m that faces the camera.
 SurfaceSamples wall_pixel() {
@@ -40,9 +39,9 @@ TEST(Reference, OneLightByHand) {
     const ReferenceLights lights{{light_at({0, 0, -3}, 4.0)}, {}};
     const double attenuation = (1 - std::pow(2.0 / 4.0, 4)) / 4.0;
     const ReferencePicture p = shade_reference(wall_pixel(), lights, {});
-    EXPECT_DOUBLE_EQ(p.radiance.rgb[0], 0.5 / kPi * 10 * attenuation);
-    EXPECT_DOUBLE_EQ(p.radiance.rgb[1], 0.25 / kPi * 20 * attenuation);
-    EXPECT_DOUBLE_EQ(p.radiance.rgb[2], 0.125 / kPi * 30 * attenuation);
+    EXPECT_DOUBLE_EQ(p.radiance.rgb[0], 0.5 / std::numbers::pi * 10 * attenuation);
+    EXPECT_DOUBLE_EQ(p.radiance.rgb[1], 0.25 / std::numbers::pi * 20 * attenuation);
+    EXPECT_DOUBLE_EQ(p.radiance.rgb[2], 0.125 / std::numbers::pi * 30 * attenuation);
     EXPECT_DOUBLE_EQ(p.scale.rgb[2], 30 * attenuation);
     EXPECT_EQ(p.lights_per_pixel, 1.0);
 }
@@ -51,7 +50,7 @@ TEST(Reference, UnboundedInverseSquareHasNoRange) {
     const ReferenceLights lights{{light_at({0, 3, -1}, 4.0)}, {}};
     EXPECT_EQ(radiance(wall_pixel(), lights)[0], 0.0) << "5 m away, range 4 m";
     EXPECT_DOUBLE_EQ(radiance(wall_pixel(), lights, {.windowed = false})[0],
-                     0.5 / kPi * 10 / 25.0 * (4.0 / 5.0));
+                     0.5 / std::numbers::pi * 10 / 25.0 * (4.0 / 5.0));
 }
 
 // A random range is negative: where the light would be below the budget, its draw outweighs that.
@@ -59,7 +58,7 @@ TEST(Reference, DrawnRangesWeighByTheChanceOfTheDraw) {
     ReferenceLight light = light_at({0, 0, -3}, 4.0);
     light.inv_range2 = -light.inv_range2;
     const ReferenceLights lights{{light}, {}};
-    const double unbounded = 0.5 / kPi * 10 / 4.0;  // 2 m away
+    const double unbounded = 0.5 / std::numbers::pi * 10 / 4.0;  // 2 m away
     EXPECT_DOUBLE_EQ(radiance(wall_pixel(), lights, {.random_ranges = 7.0})[0], unbounded);
     EXPECT_DOUBLE_EQ(radiance(wall_pixel(), lights, {.random_ranges = 15.0})[0],
                      unbounded * 4.0 * 15.0 / 30.0);
@@ -72,7 +71,7 @@ TEST(Reference, LightAtTheSurfaceIsFinite) {
         const ReferenceLights lights{{light_at({0, 0, -5 + d}, 4.0)}, {}};
         const double value = radiance(wall_pixel(), lights)[0];
         const double window = 1 - std::pow(d / 4, 4);
-        const double expected = 0.5 / kPi * 10 * window / 1e-4 * (d / 0.01);
+        const double expected = 0.5 / std::numbers::pi * 10 * window / 1e-4 * (d / 0.01);
         EXPECT_NEAR(value, expected, 1e-12 * expected + 1e-9 * (d > 0 && d < 1e-5)) << d;
     }
 }
@@ -91,12 +90,12 @@ TEST(Reference, SpotConeBetweenItsAngles) {
     EXPECT_DOUBLE_EQ(at_angle(0.19), full);
     EXPECT_NEAR(at_angle(std::acos((cos_in + cos_out) / 2)), full / 4, 1e-12);
     EXPECT_EQ(at_angle(0.51), 0.0);
-    EXPECT_EQ(at_angle(kPi), 0.0);
+    EXPECT_EQ(at_angle(std::numbers::pi), 0.0);
 }
 
 TEST(Reference, DirectionalLightHasNoFalloff) {
     const ReferenceLights lights{{}, {{.to_light = {0, 0.6, 0.8}, .illuminance = {2, 2, 2}}}};
-    EXPECT_DOUBLE_EQ(radiance(wall_pixel(), lights)[0], 0.5 / kPi * 2 * 0.8);
+    EXPECT_DOUBLE_EQ(radiance(wall_pixel(), lights)[0], 0.5 / std::numbers::pi * 2 * 0.8);
     const ReferenceLights behind{{}, {{.to_light = {0, 0.6, -0.8}, .illuminance = {2, 2, 2}}}};
     EXPECT_EQ(radiance(wall_pixel(), behind)[0], 0.0);
     EXPECT_EQ(shade_reference(wall_pixel(), behind, {}).scale.rgb[0], 2.0) << "E has no cosine";
@@ -113,7 +112,7 @@ TEST(Reference, AmbientEmissiveAndKinds) {
     surfaces.pixels[2].kind = SurfaceKind::background;
     const ReferenceLights lights{{light_at({0, 0, -3}, 4.0)}, {}};
     const auto rgb = radiance(surfaces, lights, {.ambient = 0.1});
-    const double lit = 0.5 / kPi * 10 * 0.9375 / 4;
+    const double lit = 0.5 / std::numbers::pi * 10 * 0.9375 / 4;
     EXPECT_DOUBLE_EQ(rgb[0], 1 + 0.1 * 0.5 * 0.5 + lit);
     EXPECT_EQ(rgb[3], 1.0);
     EXPECT_EQ(rgb[6], 0.0);

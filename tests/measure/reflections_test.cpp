@@ -14,16 +14,14 @@
 namespace kilolux {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-using Radiance = std::function<glm::dvec3(const glm::dvec3&)>;
+using RadianceOf = std::function<glm::dvec3(const glm::dvec3&)>;
 
 struct Map {
     Environment whole;
     std::shared_ptr<const PrefilteredEnvironment> filtered;
 };
 
-Map map_of(const Radiance& radiance) {
+Map map_of(const RadianceOf& radiance) {
     Environment out{256, 128, {}};
     for (int y = 0; y < out.height; ++y) {
         for (int x = 0; x < out.width; ++x) out.rows.emplace_back(radiance(out.direction(x, y)));
@@ -47,7 +45,8 @@ Scene sphere(const Material& material) {
     Mesh mesh;
     for (std::uint32_t ring = 0; ring <= kRings; ++ring) {
         for (std::uint32_t column = 0; column <= kColumns; ++column) {
-            const double from_top = kPi * ring / kRings, around = 2.0 * kPi * column / kColumns;
+            const double from_top = std::numbers::pi * ring / kRings,
+                         around = 2.0 * std::numbers::pi * column / kColumns;
             const glm::dvec3 p(std::sin(from_top) * std::sin(around), std::cos(from_top),
                                std::sin(from_top) * std::cos(around));
             mesh.positions.emplace_back(p);

@@ -16,7 +16,7 @@
 namespace kilolux {
 namespace {
 
-DeviceInfo device() {
+DeviceInfo report_device() {
     DeviceInfo out;
     out.is_cpu = true;
     out.lane_width = 8;
@@ -36,7 +36,7 @@ std::set<SettingAxis> axes(const std::vector<ReportSetting>& settings) {
 TEST(ReportSettings, CoverEveryAxisOnceEach) {
     const Scene scene = make_generated_scene("grid");
     for (const bool quick : {false, true}) {
-        const auto settings = report_settings(scene, {}, device(), {.quick = quick});
+        const auto settings = report_settings(scene, {}, report_device(), {.quick = quick});
         EXPECT_EQ(settings.front().name, "default");
         EXPECT_EQ(settings.front().options, "");
         EXPECT_EQ(axes(settings).size(), 9u);
@@ -57,11 +57,11 @@ TEST(ReportSettings, CoverEveryAxisOnceEach) {
 TEST_F(ReportSettingsOfATuning, HaveTheWaysThatAutomaticGeometryIsNot) {
     const Scene scene = make_generated_scene("grid");
     for (const int computes : {0, 1}) {
-        StoredTuning tuning = choose_tuning(device(), {});
+        StoredTuning tuning = choose_tuning(report_device(), {});
         tuning.tuning.geometry = computes;
-        store_tuning(device(), tuning);
+        store_tuning(report_device(), tuning);
         std::set<std::string> names;
-        for (const ReportSetting& s : report_settings(scene, {}, device(), {})) {
+        for (const ReportSetting& s : report_settings(scene, {}, report_device(), {})) {
             if (s.axis == SettingAxis::geometry) names.insert(s.name);
         }
         const std::string other = computes == 1 ? "geometry ids" : "geometry compute";
@@ -74,7 +74,7 @@ TEST(ReportSettings, CutOffsKeepTheLightsAndSetTheirRange) {
     RenderSettings base;
     base.lights.count = 300;
     const double intensity = automatic_light_scale(base.lights, scene).intensity;
-    for (const ReportSetting& s : report_settings(scene, base, device(), {})) {
+    for (const ReportSetting& s : report_settings(scene, base, report_device(), {})) {
         if (s.axis != SettingAxis::cut_off) continue;
         const LightScale scale = automatic_light_scale(s.settings.lights, scene);
         EXPECT_DOUBLE_EQ(scale.intensity, intensity) << s.name;
@@ -89,14 +89,15 @@ TEST(ReportSettings, FilesLightsFollowTheBudgetWhereTheyHaveNoRange) {
     Scene scene = make_generated_scene("plain");
     RenderSettings base;
     base.lights.count = 0;
-    EXPECT_EQ(axes(report_settings(scene, base, device(), {})).count(SettingAxis::cut_off), 0u)
+    EXPECT_EQ(axes(report_settings(scene, base, report_device(), {})).count(SettingAxis::cut_off),
+              0u)
         << "no light has a range to choose";
     SceneLight ranged, open;
     ranged.intensity = open.intensity = {10.0f, 5.0f, 1.0f};
     ranged.range = 3.0f;
     scene.lights = {ranged, open};
     int cut_offs = 0;
-    for (const ReportSetting& s : report_settings(scene, base, device(), {})) {
+    for (const ReportSetting& s : report_settings(scene, base, report_device(), {})) {
         if (s.axis != SettingAxis::cut_off) continue;
         ++cut_offs;
         const auto lights = lights_at(scene, s.settings, {}, 0.0);
@@ -115,7 +116,8 @@ TEST(ReportSettings, ManyLightsWithoutARangeAreTriedInEveryWay) {
     base.lights.count = 0;
     const auto names = [&](const RenderSettings& asked, bool quick) {
         std::set<std::string> out;
-        for (const ReportSetting& s : report_settings(scene, asked, device(), {.quick = quick})) {
+        for (const ReportSetting& s :
+             report_settings(scene, asked, report_device(), {.quick = quick})) {
             if (s.axis != SettingAxis::cut_off || s.name.starts_with("cut-off")) continue;
             out.insert(s.name);
             EXPECT_NO_THROW(make_scene_plan(scene, s.settings, 200)) << s.name;
@@ -133,7 +135,7 @@ TEST(ReportSettings, ManyLightsWithoutARangeAreTriedInEveryWay) {
     base.shadows = Shadows::off;
     base.tails = Tails::tree;
     EXPECT_EQ(names(base, false).count("tails tree 0.3"), 0u);
-    for (const ReportSetting& s : report_settings(scene, base, device(), {})) {
+    for (const ReportSetting& s : report_settings(scene, base, report_device(), {})) {
         EXPECT_NO_THROW(make_scene_plan(scene, s.settings, 200)) << s.name;
     }
 }
@@ -141,8 +143,8 @@ TEST(ReportSettings, ManyLightsWithoutARangeAreTriedInEveryWay) {
 TEST(ReportSettings, ForwardRenderersHaveNoGBufferToVary) {
     RenderSettings base;
     base.renderer = RendererKind::forward_plus;
-    const auto found =
-        axes(report_settings(make_generated_scene("plain"), base, device(), {.quick = true}));
+    const auto found = axes(
+        report_settings(make_generated_scene("plain"), base, report_device(), {.quick = true}));
     EXPECT_FALSE(found.count(SettingAxis::gbuffer));
     EXPECT_FALSE(found.count(SettingAxis::lanes));
     EXPECT_FALSE(found.count(SettingAxis::math));
@@ -153,7 +155,8 @@ std::set<std::string> names_with(Shadows shadows, const SettingChoice& choice) {
     RenderSettings base;
     base.shadows = shadows;
     std::set<std::string> names;
-    for (const auto& s : report_settings(make_generated_scene("plain"), base, device(), choice)) {
+    for (const auto& s :
+         report_settings(make_generated_scene("plain"), base, report_device(), choice)) {
         names.insert(s.name);
         EXPECT_FALSE(is_forward(s.settings.renderer) && s.settings.shadows != Shadows::off)
             << s.name;

@@ -84,8 +84,8 @@ TEST(Sweep, MakesEveryCombinationOnce) {
     EXPECT_EQ(varying_fields(points),
               (std::vector<std::string>{"renderer", "lights", "grid", "lanes"}));
     EXPECT_EQ(sweep_points(SweepAxes{}), std::vector<SweepPoint>{SweepPoint{}});
-    EXPECT_TRUE(varying_fields({SweepPoint{}}).empty());
-    EXPECT_TRUE(varying_fields({}).empty());
+    EXPECT_TRUE(varying_fields(std::vector{SweepPoint{}}).empty());
+    EXPECT_TRUE(varying_fields(std::vector<SweepPoint>{}).empty());
 }
 
 TEST(Sweep, PutsAPointIntoSettings) {

@@ -11,7 +11,7 @@
 namespace kilolux {
 namespace {
 
-Table sample() {
+Table sample_table() {
     return {{"setting", "shade [ms]", "lights"},
             {{"plain", 1.0 / 3.0, std::int64_t{5000}},
              {"a|b, \"c\"\nd", 1e-9, std::monostate{}},
@@ -19,7 +19,7 @@ Table sample() {
 }
 
 TEST(Table, Csv) {
-    EXPECT_EQ(to_csv(sample()),
+    EXPECT_EQ(to_csv(sample_table()),
               "setting,shade [ms],lights\n"
               "plain,0.3333333333333333,5000\n"
               "\"a|b, \"\"c\"\"\nd\",1e-09,\n"
@@ -35,7 +35,7 @@ TEST(Table, CsvNumbersReadBackTheSame) {
 }
 
 TEST(Table, Markdown) {
-    EXPECT_EQ(to_markdown(sample()),
+    EXPECT_EQ(to_markdown(sample_table()),
               "| setting     | shade [ms] | lights |\n"
               "| ----------- | ---------: | -----: |\n"
               "| plain       |     0.3333 |   5000 |\n"
@@ -60,12 +60,12 @@ TEST(Table, CsvLinesMayEndInCrLf) {
 }
 
 TEST(Table, CsvComesBack) {
-    const TextTable texts = parse_csv(to_csv(sample()));
-    EXPECT_EQ(texts.columns, sample().columns);
+    const TextTable texts = parse_csv(to_csv(sample_table()));
+    EXPECT_EQ(texts.columns, sample_table().columns);
     ASSERT_EQ(texts.rows.size(), 3u);
     EXPECT_EQ(texts.rows[1], (std::vector<std::string>{"a|b, \"c\"\nd", "1e-09", ""}));
-    EXPECT_EQ(to_csv(table_of(texts)), to_csv(sample()));
-    EXPECT_EQ(to_markdown(table_of(texts)), to_markdown(sample()));
+    EXPECT_EQ(to_csv(table_of(texts)), to_csv(sample_table()));
+    EXPECT_EQ(to_markdown(table_of(texts)), to_markdown(sample_table()));
     EXPECT_TRUE(parse_csv("").columns.empty());
     EXPECT_THROW(parse_csv("a,b\n1\n"), Error);
 }

@@ -6,7 +6,7 @@
 namespace kilolux {
 namespace {
 
-Scene scene_without_ranges() {
+Scene bright_scene_without_ranges() {
     Scene scene = grid_with_every_light();
     for (SceneLight& light : scene.lights) light.range = 0.0f;
     return scene;
@@ -19,7 +19,7 @@ float worst_bound(const Scene& scene, RenderSettings settings) {
 }
 
 TEST(TailBudget, TheLargestThatKeepsWithinTheBound) {
-    const Scene scene = scene_without_ranges();
+    const Scene scene = bright_scene_without_ranges();
     const ReportView view{scene, first_camera(scene), 0.0};
     int pictures = 0;
     TailChoice choice = tails_within(view, small_settings(96, 54, 0), 0.2, [&] { ++pictures; });
@@ -32,7 +32,7 @@ TEST(TailBudget, TheLargestThatKeepsWithinTheBound) {
 }
 
 TEST(TailBudget, NothingLostIsExact) {
-    const Scene scene = scene_without_ranges();
+    const Scene scene = bright_scene_without_ranges();
     const ReportView view{scene, first_camera(scene), 0.0};
     const TailChoice choice = tails_within(view, small_settings(48, 27, 0), 0.0, [] {});
     EXPECT_EQ(choice.settings.tails, Tails::exact);

@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr CacheKind kKind = {"numbers", 1};
+constexpr CacheKind kTuningKind = {"numbers", 1};
 const CacheValues kValues = {{"big", 4.75e11}, {"exact", 0.1}, {"small", 2.2e-4}, {"whole", 16.0}};
 
 DeviceInfo device_named(const std::string& name) {
@@ -75,25 +75,25 @@ TEST_F(DeviceCache, FollowsTheEnvironment) {
     EXPECT_EQ(cache_folder(), fs::path("/home/me/.cache/kilolux"));
     set("HOME", nullptr);
     EXPECT_TRUE(cache_folder().empty());
-    EXPECT_FALSE(read_device_cache(device_named("a"), kKind));
-    EXPECT_THROW(write_device_cache(device_named("a"), kKind, kValues), Error);
+    EXPECT_FALSE(read_device_cache(device_named("a"), kTuningKind));
+    EXPECT_THROW(write_device_cache(device_named("a"), kTuningKind, kValues), Error);
 }
 
 TEST_F(DeviceCache, ReturnsTheSameNumbers) {
     const DeviceInfo device = device_named("a");
-    EXPECT_FALSE(read_device_cache(device, kKind));
-    write_device_cache(device, kKind, kValues);
-    EXPECT_EQ(read_device_cache(device, kKind), kValues);
-    write_device_cache(device, kKind, {});
-    EXPECT_EQ(read_device_cache(device, kKind), CacheValues());
+    EXPECT_FALSE(read_device_cache(device, kTuningKind));
+    write_device_cache(device, kTuningKind, kValues);
+    EXPECT_EQ(read_device_cache(device, kTuningKind), kValues);
+    write_device_cache(device, kTuningKind, {});
+    EXPECT_EQ(read_device_cache(device, kTuningKind), CacheValues());
 }
 
 TEST_F(DeviceCache, IsForItsOwnerOnlyAndLeavesNothingElse) {
     const DeviceInfo device = device_named("a");
-    write_device_cache(device, kKind, kValues);
-    write_device_cache(device, kKind, kValues);
+    write_device_cache(device, kTuningKind, kValues);
+    write_device_cache(device, kTuningKind, kValues);
     struct stat status {};
-    ASSERT_EQ(::stat(device_cache_file(device, kKind).c_str(), &status), 0);
+    ASSERT_EQ(::stat(device_cache_file(device, kTuningKind).c_str(), &status), 0);
     EXPECT_EQ(status.st_mode & 0777u, 0600u);
     ASSERT_EQ(::stat(cache_folder().c_str(), &status), 0);
     EXPECT_EQ(status.st_mode & 0777u, 0700u);
@@ -104,65 +104,66 @@ TEST_F(DeviceCache, IsForItsOwnerOnlyAndLeavesNothingElse) {
 
 TEST_F(DeviceCache, TellsDevicesDriversKindsAndVersionsApart) {
     const DeviceInfo device = device_named("a");
-    write_device_cache(device, kKind, kValues);
-    EXPECT_FALSE(read_device_cache(device_named("b"), kKind));
+    write_device_cache(device, kTuningKind, kValues);
+    EXPECT_FALSE(read_device_cache(device_named("b"), kTuningKind));
     DeviceInfo updated = device;
     updated.driver = "1.2.4";
-    EXPECT_FALSE(read_device_cache(updated, kKind));
+    EXPECT_FALSE(read_device_cache(updated, kTuningKind));
     EXPECT_FALSE(read_device_cache(device, {"other", 1}));
-    EXPECT_FALSE(read_device_cache(device, {kKind.name, 2}));
+    EXPECT_FALSE(read_device_cache(device, {kTuningKind.name, 2}));
     // Another device's entry under this one's name, as a collision or a copied folder would leave
     // it.
-    fs::copy_file(device_cache_file(device, kKind), device_cache_file(device_named("b"), kKind));
-    EXPECT_FALSE(read_device_cache(device_named("b"), kKind));
+    fs::copy_file(device_cache_file(device, kTuningKind),
+                  device_cache_file(device_named("b"), kTuningKind));
+    EXPECT_FALSE(read_device_cache(device_named("b"), kTuningKind));
 }
 
 TEST_F(DeviceCache, NamesTheProgramThatWroteIt) {
     const DeviceInfo device = device_named("a");
-    write_device_cache(device, kKind, kValues);
-    const std::string text = text_of(device_cache_file(device, kKind));
+    write_device_cache(device, kTuningKind, kValues);
+    const std::string text = text_of(device_cache_file(device, kTuningKind));
     EXPECT_NE(text.find("\nprogram " + version() + "\n"), std::string::npos) << text;
 }
 
 TEST_F(DeviceCache, IgnoresEveryTruncation) {
     const DeviceInfo device = device_named("a");
-    write_device_cache(device, kKind, kValues);
-    const fs::path file = device_cache_file(device, kKind);
+    write_device_cache(device, kTuningKind, kValues);
+    const fs::path file = device_cache_file(device, kTuningKind);
     const std::string whole = text_of(file);
     for (std::size_t length = 0; length < whole.size(); ++length) {
         overwrite(file, whole.substr(0, length));
-        ASSERT_FALSE(read_device_cache(device, kKind)) << "length " << length;
+        ASSERT_FALSE(read_device_cache(device, kTuningKind)) << "length " << length;
     }
     overwrite(file, whole);
-    EXPECT_TRUE(read_device_cache(device, kKind));
+    EXPECT_TRUE(read_device_cache(device, kTuningKind));
 }
 
 TEST_F(DeviceCache, IgnoresEveryFlippedBit) {
     const DeviceInfo device = device_named("a");
-    write_device_cache(device, kKind, kValues);
-    const fs::path file = device_cache_file(device, kKind);
+    write_device_cache(device, kTuningKind, kValues);
+    const fs::path file = device_cache_file(device, kTuningKind);
     const std::string whole = text_of(file);
     for (std::size_t i = 0; i < whole.size(); ++i) {
         std::string harmed = whole;
         harmed[i] = static_cast<char>(harmed[i] ^ (1 << (i % 7)));
         overwrite(file, harmed);
-        ASSERT_FALSE(read_device_cache(device, kKind)) << "byte " << i;
+        ASSERT_FALSE(read_device_cache(device, kTuningKind)) << "byte " << i;
     }
 }
 
 TEST_F(DeviceCache, IgnoresWhatIsNoEntry) {
     const DeviceInfo device = device_named("a");
-    write_device_cache(device, kKind, kValues);
-    const fs::path file = device_cache_file(device, kKind);
+    write_device_cache(device, kTuningKind, kValues);
+    const fs::path file = device_cache_file(device, kTuningKind);
     for (const std::string& text :
          {std::string("{}"), std::string(1 << 20, 'x'), std::string(100, '\0')}) {
         overwrite(file, text);
-        EXPECT_FALSE(read_device_cache(device, kKind)) << text.substr(0, 10);
+        EXPECT_FALSE(read_device_cache(device, kTuningKind)) << text.substr(0, 10);
     }
     fs::remove(file);
     fs::create_directory(file);
-    EXPECT_FALSE(read_device_cache(device, kKind));
-    EXPECT_THROW(write_device_cache(device, kKind, kValues), Error);
+    EXPECT_FALSE(read_device_cache(device, kTuningKind));
+    EXPECT_THROW(write_device_cache(device, kTuningKind, kValues), Error);
     const auto files =
         std::distance(fs::directory_iterator(cache_folder()), fs::directory_iterator());
     EXPECT_EQ(files, 1) << "a temporary file was left";
@@ -172,7 +173,7 @@ TEST_F(DeviceCache, SaysWhereItCannotWrite) {
     overwrite(folder() / "file", "");
     set("XDG_CACHE_HOME", (folder() / "file").c_str());
     try {
-        write_device_cache(device_named("a"), kKind, kValues);
+        write_device_cache(device_named("a"), kTuningKind, kValues);
         FAIL() << "no error";
     } catch (const Error& error) {
         EXPECT_NE(std::string(error.what()).find((folder() / "file").string()), std::string::npos)

@@ -13,7 +13,7 @@
 namespace kilolux {
 namespace {
 
-std::string error_of(std::string_view choice) {
+std::string choice_error(std::string_view choice) {
     try {
         choose_device(choice);
     } catch (const Error& error) {
@@ -44,7 +44,7 @@ TEST(Device, GpuIsPreferredElseTheFirst) {
 
 TEST(Device, UnknownChoiceListsWhatThereIs) {
     for (const std::string choice : {"no-such-device", "999", "-1", "0x"}) {
-        const std::string message = error_of(choice);
+        const std::string message = choice_error(choice);
         EXPECT_NE(message.find("no device '" + choice + "'; the devices are, by index: 0: " +
                                describe(all_devices().front()).name),
                   std::string::npos)
@@ -59,7 +59,7 @@ TEST(Device, AWholeNumberIsAnIndexAndNoPartOfAName) {
     const std::string digits =
         name.substr(first, name.find_first_not_of("0123456789", first) - first);
     if (std::stoul(digits) < all_devices().size()) GTEST_SKIP() << digits << " is an index";
-    const std::string message = error_of(digits);
+    const std::string message = choice_error(digits);
     EXPECT_NE(message.find("no device '" + digits + "'; the devices are, by index: 0: "),
               std::string::npos)
         << message;
@@ -70,7 +70,7 @@ TEST(DeviceDeathTest, WithoutADriverSaysWhatToInstall) {
     EXPECT_EXIT(
         {
             setenv("OCL_ICD_VENDORS", "/nonexistent", 1);
-            const std::string message = error_of("");
+            const std::string message = choice_error("");
             std::fprintf(stderr, "%s\n", message.c_str());
             std::exit(message.find("no device found") != std::string::npos ? 0 : 1);
         },

@@ -121,7 +121,7 @@ std::vector<Measure> cluster_measures() {
             OFFSET_OF(ActiveCluster, list_count)};
 }
 
-constexpr std::string_view kHeaders[] = {
+constexpr std::string_view kLayoutHeaders[] = {
     "kernels/shared/light_profile.h", "kernels/shared/cluster_grid.h",
     "kernels/shared/clusters.h",      "kernels/shared/gbuffer.h",
     "kernels/shared/light.h",         "kernels/shared/light_drift.h",
@@ -137,7 +137,7 @@ void expect_equal(const std::vector<Measure>& measures) {
         text += "    out[" + std::to_string(i) + "] = (uint)" + measures[i].expression + ";\n";
     }
     text += "}\n";
-    const auto found = run_probe<uint>(gpu, {kHeaders, text}, 1, measures.size());
+    const auto found = run_probe<uint>(gpu, {kLayoutHeaders, text}, 1, measures.size());
     for (std::size_t i = 0; i < measures.size(); ++i) {
         EXPECT_EQ(found[i], measures[i].expected) << measures[i].expression;
     }
@@ -154,7 +154,7 @@ TEST(Layout, ClustersAgreeWithTheDevice) { expect_equal(cluster_measures()); }
 TEST(Layout, StructsPassedByValueArriveWhole) {
     Gpu gpu = test_gpu();
     const cl::Program program = build_probe(
-        gpu, kHeaders,
+        gpu, kLayoutHeaders,
         "kernel void echo(View view, ClusterGrid grid, GBufferLayout layout, global View* v,\n"
         "                 global ClusterGrid* g, global GBufferLayout* l) {\n"
         "    *v = view;\n    *g = grid;\n    *l = layout;\n}\n");

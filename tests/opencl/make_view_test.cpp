@@ -117,7 +117,7 @@ TEST(MakeView, FindsThePointsThatTheMatricesDrew) {
             expect_round_trip(lens, world);
         }
         const MatrixView made =
-            make_view({view_matrix(lens.left), projection(lens), 640, 360, {}, {}});
+            make_view(ViewMatrices{view_matrix(lens.left), projection(lens), 640, 360, {}, {}});
         EXPECT_NEAR(made.camera[0], 1.0, 1e-12);
         EXPECT_NEAR(made.camera[1], 2.0, 1e-12);
         EXPECT_NEAR(made.camera[2], 3.0, 1e-12);
@@ -137,7 +137,7 @@ TEST(MakeView, BackgroundIsZero) {
 TEST(MakeView, RefusesWhatIsNoCamera) {
     const Matrix4 view = view_matrix(false), lens = projection({true, false, true, false, true});
     const auto refusal = [](const Matrix4& v, const Matrix4& p) {
-        return message_of<Error>([&] { make_view({v, p, 64, 32, {}, {}}); });
+        return message_of<Error>([&] { make_view(ViewMatrices{v, p, 64, 32, {}, {}}); });
     };
     Matrix4 scaled = view;
     for (double& value : scaled) value *= 2.0;
@@ -162,7 +162,7 @@ TEST(MakeView, RefusesWhatIsNoCamera) {
         EXPECT_TRUE(contains(refusal(view, bad_lens), "make_view: projection " + where));
     }
     EXPECT_EQ(message_of<Error>([&] {
-                  make_view({view, lens, 64, 0, {}, {}});
+                  make_view(ViewMatrices{view, lens, 64, 0, {}, {}});
               }),
               "make_view: a picture of 64x0 pixels");
 }

@@ -22,7 +22,7 @@ namespace kilolux {
 namespace {
 
 template <typename Body>
-std::string error_of(const Body& body) {
+std::string build_error(const Body& body) {
     try {
         body();
     } catch (const Error& error) {
@@ -37,7 +37,7 @@ void expect_contains(const std::string& message, const std::string& part) {
 
 TEST(Program, BuildFailureNamesFileDeviceOptionsAndLog) {
     const Gpu gpu = test_gpu();
-    const std::string message = error_of(
+    const std::string message = build_error(
         [&] { build_program(gpu, "tonemap", BuildOptions().define("fv", "no_such_function")); });
     expect_contains(message,
                     "kernels/picture/tonemap.cl: build failed with CL_BUILD_PROGRAM_FAILURE");
@@ -77,12 +77,12 @@ TEST(Program, CompilerMessagesNameTheFileAndLineOfAnInclude) {
     }
     std::ofstream(folder / "kernels/device/lanes.h") << "// broken on line 3\n\nint oops = ;\n";
     const EnvironmentVariable root("KILOLUX_SOURCE_DIR", folder.path().string());
-    const std::string message = error_of([] { build_program(test_gpu(), "tonemap"); });
+    const std::string message = build_error([] { build_program(test_gpu(), "tonemap"); });
     expect_contains(message, "kernels/device/lanes.h:3");
 }
 
 TEST(Program, UnknownStageIsAnError) {
-    expect_contains(error_of([] { build_program(test_gpu(), "no_such_stage"); }),
+    expect_contains(build_error([] { build_program(test_gpu(), "no_such_stage"); }),
                     "kernels/no_such_stage.cl");
 }
 
@@ -111,7 +111,7 @@ TEST(Program, ContextsAndProgramsGoWithTheLastGpu) {
 }
 
 TEST(Program, LaunchFailureNamesStageAndError) {
-    const std::string message = error_of([] {
+    const std::string message = build_error([] {
         in_stage("cull_lights", [] {
             Gpu gpu = test_gpu();
             const cl::Program program = build_program(gpu, "build_clusters");
@@ -142,7 +142,7 @@ TEST(GrowingBuffer, MoreThanTheDeviceAllocatesIsAnErrorAndKeepsWhatThereIs) {
     GrowingBuffer buffer(gpu, "cull_lights");
     buffer.reserve(64);
     const std::size_t limit = gpu.info.max_allocation_bytes;
-    const std::string message = error_of([&] { buffer.reserve(limit + 1); });
+    const std::string message = build_error([&] { buffer.reserve(limit + 1); });
     expect_contains(message, "cull_lights: needs a buffer of ");
     expect_contains(message, gpu.info.name + " allocates at most " + mebibytes(limit));
     EXPECT_EQ(buffer.bytes(), 64u);
@@ -164,14 +164,14 @@ TEST(GrowingBuffer, SlackIsLeftOutWhereOnlyTheNeedFits) {
     buffer.reserve(900, 112);
     EXPECT_EQ(buffer.bytes(), 900u);
     EXPECT_EQ(gpu.budget->used, 900u);
-    expect_contains(error_of([&] { buffer.reserve(1001, 0); }), "--max-memory");
+    expect_contains(build_error([&] { buffer.reserve(1001, 0); }), "--max-memory");
 }
 
 TEST(GrowingBuffer, BudgetCountsTheOldBufferWhileACopyHoldsIt) {
     const Gpu gpu = gpu_with_budget(1000);
     GrowingArray<std::byte> array(gpu, "test");
     DeviceArray<std::byte> held = array.reserve(400);
-    expect_contains(error_of([&] { array.reserve(700); }), "--max-memory");
+    expect_contains(build_error([&] { array.reserve(700); }), "--max-memory");
     EXPECT_EQ(array.reserve(600).count(), 600u);
     EXPECT_EQ(gpu.budget->used, 1000u);
     held = {};

@@ -115,7 +115,7 @@ TEST(DisplayPicture, GoesThroughTheViewThatOcioNames) {
     EXPECT_FALSE(uses_ocio({"", "none", ""}));
 }
 
-std::string message_of(const OcioOptions& ocio) {
+std::string ocio_message(const OcioOptions& ocio) {
     try {
         display_colours(ramp(), {}, ocio);
     } catch (const Error& error) {
@@ -130,13 +130,13 @@ TEST(DisplayPicture, NamesWhatTheConfigurationLacks) {
     {
         const EnvironmentVariable set("OCIO", (folder / "config.ocio").string());
         EXPECT_TRUE(
-            contains(message_of({"scren", "", ""}), "has no 'scren'; it has screen, paper"));
-        EXPECT_TRUE(contains(message_of({"", "plain", ""}), "--ocio-view"));
-        EXPECT_TRUE(contains(message_of({"", "", "nowhere"}), "--ocio-input"));
+            contains(ocio_message({"scren", "", ""}), "has no 'scren'; it has screen, paper"));
+        EXPECT_TRUE(contains(ocio_message({"", "plain", ""}), "--ocio-view"));
+        EXPECT_TRUE(contains(ocio_message({"", "", "nowhere"}), "--ocio-input"));
     }
     {
         const EnvironmentVariable set("OCIO", (folder / "missing.ocio").string());
-        EXPECT_TRUE(contains(message_of({}), "missing.ocio")) << message_of({});
+        EXPECT_TRUE(contains(ocio_message({}), "missing.ocio")) << ocio_message({});
     }
     EXPECT_THROW(uses_ocio({"screen", "", ""}), UsageError) << "OCIO is not set";
 }

@@ -20,7 +20,7 @@ struct Parsed {
 };
 
 // Options as the render command has them, parsed from words.
-Parsed parse(const std::string& line) {
+Parsed parsed(const std::string& line) {
     Parsed parsed;
     CLI::App app;
     add_shared_options(app, parsed.shared);
@@ -33,7 +33,7 @@ Parsed parse(const std::string& line) {
 }
 
 std::string refusal(const std::string& line) {
-    return message_of<UsageError>([&] { parse(line); });
+    return message_of<UsageError>([&] { parsed(line); });
 }
 
 TEST(Options, ExposureNamesAutoWhereItIsTaken) {
@@ -67,7 +67,7 @@ TEST(Options, SamplesAreACountOrAutoWhereThatIsTaken) {
 }
 
 TEST(Options, DefaultsAreThoseOfTheSettings) {
-    const Parsed p = parse("");
+    const Parsed p = parsed("");
     EXPECT_EQ(p.shared.scene, "atrium");
     EXPECT_EQ(p.shared.settings.renderer, RendererKind::deferred);
     EXPECT_EQ(p.shared.settings.width, 1920);
@@ -120,7 +120,7 @@ TEST(Options, DefaultsInHelpAreTheRealOnes) {
 }
 
 TEST(Options, PictureOptionsArrive) {
-    const Parsed p = parse(
+    const Parsed p = parsed(
         "grid --renderer deferred-all --resolution 17,31 --gbuffer half --shading blinn-phong "
         "--ambient 0.5 --samples 16 --time -2.5 --show lit --aov depth,light-count --bloom 0.25 "
         "--exposure -1.5 --tonemap aces");
@@ -141,7 +141,7 @@ TEST(Options, PictureOptionsArrive) {
 }
 
 TEST(Options, LightCameraAndDeviceOptionsArrive) {
-    const Parsed p = parse(
+    const Parsed p = parsed(
         "--lights 2147483648 --light-seed 18446744073709551615 --light-radius 2.5 "
         "--light-intensity 7 --light-box -1,-2,-3,1,2,3 --camera-index 3 --camera-position -1,2,3 "
         "--camera-focal-point 0,0,-1e3 --camera-view-up 0,0,1 --camera-view-angle 45.5 "
@@ -168,7 +168,7 @@ TEST(Options, LightCameraAndDeviceOptionsArrive) {
 }
 
 TEST(Options, OutputOptionsArrive) {
-    const Parsed p = parse(
+    const Parsed p = parsed(
         "-o a/f.####.exr --exr-half --frames 3:9 --fps 12.5 --shard 1/4 --skip-existing --stats - "
         "--reference r.exr --threshold 0.01 --metric max --quiet");
     EXPECT_EQ(p.output.output, "a/f.####.exr");
@@ -190,32 +190,32 @@ TEST(Options, OutputOptionsArrive) {
 TEST(Options, EveryNameIsTakenAndPlacedRight) {
     const auto renderers = names_of<RendererKind>();
     for (std::size_t i = 0; i < renderers.size(); ++i) {
-        const auto kind = parse("--renderer " + renderers[i]).shared.settings.renderer;
+        const auto kind = parsed("--renderer " + renderers[i]).shared.settings.renderer;
         EXPECT_EQ(static_cast<std::size_t>(kind), i) << renderers[i];
         EXPECT_EQ(name_of(kind), renderers[i]);
     }
     for (const std::string& name : names_of<Shading>()) {
-        EXPECT_EQ(name_of(parse("--shading " + name).shared.settings.shading), name);
+        EXPECT_EQ(name_of(parsed("--shading " + name).shared.settings.shading), name);
     }
     for (const std::string& name : names_of<ToneCurve>()) {
-        EXPECT_EQ(name_of(parse("--tonemap " + name).shared.settings.tone_curve), name);
+        EXPECT_EQ(name_of(parsed("--tonemap " + name).shared.settings.tone_curve), name);
     }
     const auto layouts = gbuffer_choices().names;
     for (std::size_t i = 0; i < layouts.size(); ++i) {
-        EXPECT_EQ(parse("--gbuffer " + layouts[i]).shared.settings.gbuffer, i) << layouts[i];
+        EXPECT_EQ(parsed("--gbuffer " + layouts[i]).shared.settings.gbuffer, i) << layouts[i];
     }
     for (const int lanes : {1, 2, 4, 8, 16}) {
-        EXPECT_EQ(parse("--lanes " + std::to_string(lanes)).shared.settings.kernels.lanes, lanes);
+        EXPECT_EQ(parsed("--lanes " + std::to_string(lanes)).shared.settings.kernels.lanes, lanes);
     }
-    EXPECT_EQ(parse("--lanes auto").shared.settings.kernels.lanes, 0);
-    EXPECT_EQ(parse("--light-radius auto").shared.settings.lights.radius, 0.0);
+    EXPECT_EQ(parsed("--lanes auto").shared.settings.kernels.lanes, 0);
+    EXPECT_EQ(parsed("--light-radius auto").shared.settings.lights.radius, 0.0);
 }
 
 TEST(Options, PeoplesWaysToWriteNumbers) {
-    EXPECT_EQ(parse("--lights 5k").shared.settings.lights.count, 5000u);
-    EXPECT_EQ(parse("--lights 1e6").shared.settings.lights.count, 1'000'000u);
-    EXPECT_EQ(parse("--lights 1.5M").shared.settings.lights.count, 1'500'000u);
-    const RenderSettings settings = parse("--resolution 1280x720").shared.settings;
+    EXPECT_EQ(parsed("--lights 5k").shared.settings.lights.count, 5000u);
+    EXPECT_EQ(parsed("--lights 1e6").shared.settings.lights.count, 1'000'000u);
+    EXPECT_EQ(parsed("--lights 1.5M").shared.settings.lights.count, 1'500'000u);
+    const RenderSettings settings = parsed("--resolution 1280x720").shared.settings;
     EXPECT_EQ(std::tie(settings.width, settings.height), std::make_tuple(1280, 720));
 }
 
@@ -233,8 +233,8 @@ TEST(Options, EveryChoiceHasAMeaning) {
 }
 
 TEST(Options, TheLastOneCounts) {
-    EXPECT_EQ(parse("--lights 5 --lights 7").shared.settings.lights.count, 7u);
-    EXPECT_EQ(parse("--lights=5").shared.settings.lights.count, 5u);
+    EXPECT_EQ(parsed("--lights 5 --lights 7").shared.settings.lights.count, 7u);
+    EXPECT_EQ(parsed("--lights=5").shared.settings.lights.count, 5u);
 }
 
 TEST(Options, BadValuesAreRefusedWithTheOptionTheValueAndWhatIsAllowed) {
@@ -305,14 +305,14 @@ TEST(Options, WhatNeedsOrExcludesEachOther) {
         {"-o a.#.png --frames 1:2 --reference r.#.png --difference d.png", "'d.png' has no ####"},
     };
     for (const auto& c : cases) {
-        const Parsed p = parse(c.line);
+        const Parsed p = parsed(c.line);
         const auto message = message_of<UsageError>([&] {
             begin_command(p.shared, !p.output.reference.empty());
             check_output_options(p.shared, p.output);
         });
         EXPECT_TRUE(contains(message, c.message)) << c.line << ": " << message;
     }
-    const Parsed good = parse("-o a.#.exr --frames 1:2 --aov depth --exr-half --shard 0/2");
+    const Parsed good = parsed("-o a.#.exr --frames 1:2 --aov depth --exr-half --shard 0/2");
     EXPECT_NO_THROW(check_output_options(good.shared, good.output));
 }
 

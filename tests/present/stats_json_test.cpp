@@ -17,7 +17,7 @@
 namespace kilolux {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 FrameRecord make_record(int frame) {
     FrameRecord record;
@@ -40,7 +40,7 @@ FrameRecord make_record(int frame) {
     return record;
 }
 
-Json make_document(const FrameRecord& last) {
+OrderedJson make_document(const FrameRecord& last) {
     DeviceInfo device;
     device.name = "a device";
     device.version = "OpenCL 3.0";
@@ -51,14 +51,14 @@ Json make_document(const FrameRecord& last) {
 }
 
 TEST(StatsJson, HasTheKeysToolsRelyOn) {
-    const Json json = make_document(make_record(0));
+    const OrderedJson json = make_document(make_record(0));
     EXPECT_EQ(json.at("device").at("name"), "a device");
     EXPECT_EQ(json.at("device").at("version"), "OpenCL 3.0");
     EXPECT_EQ(json.at("device").at("lane_width"), 8);
-    EXPECT_EQ(json.at("plan"), Json({"pbr", "point-lights"}));
+    EXPECT_EQ(json.at("plan"), OrderedJson({"pbr", "point-lights"}));
     EXPECT_EQ(json.at("lights"),
-              Json({{"given", 10}, {"used", 7}, {"rejected", 3}, {"dropped", 0}}));
-    EXPECT_EQ(json.at("clusters").at("grid"), Json({16, 9, 44}));
+              OrderedJson({{"given", 10}, {"used", 7}, {"rejected", 3}, {"dropped", 0}}));
+    EXPECT_EQ(json.at("clusters").at("grid"), OrderedJson({16, 9, 44}));
     EXPECT_EQ(json.at("clusters").at("coarse_pairs"), 5'000'000'000);
     EXPECT_EQ(json.at("clusters").at("active"), 12);
     EXPECT_EQ(json.at("clusters").at("refined_pairs"), 34);
@@ -66,9 +66,10 @@ TEST(StatsJson, HasTheKeysToolsRelyOn) {
     EXPECT_EQ(json.at("evaluations").at("useful_per_pixel"), 4.25);
     ASSERT_EQ(json.at("stages").size(), 3u);
     EXPECT_EQ(json.at("stages")[0],
-              Json({{"name", "cull_lights"}, {"ms", 1.5}, {"limit_ms", 0.25}}));
+              OrderedJson({{"name", "cull_lights"}, {"ms", 1.5}, {"limit_ms", 0.25}}));
     EXPECT_TRUE(json.at("stages")[1].at("limit_ms").is_null());
-    EXPECT_EQ(json.at("stages")[2], Json({{"name", "other"}, {"ms", 96.0}, {"limit_ms", nullptr}}))
+    EXPECT_EQ(json.at("stages")[2],
+              OrderedJson({{"name", "other"}, {"ms", 96.0}, {"limit_ms", nullptr}}))
         << "stages sum to the frame";
     EXPECT_EQ(json.at("frame_ms"), 100.0);
     EXPECT_FALSE(json.contains("error"));
@@ -84,7 +85,7 @@ TEST(StatsJson, WhatWasNotCountedIsNull) {
 TEST(StatsJson, ErrorWhenAReferenceWasGiven) {
     FrameRecord record = make_record(0);
     record.comparison = Comparison{"rmse", 0.5, 0.1, {{"rmse", 0.5}, {"max", 2.0}}};
-    const Json error = make_document(record).at("error");
+    const OrderedJson error = make_document(record).at("error");
     EXPECT_EQ(error.at("metric"), "rmse");
     EXPECT_EQ(error.at("value"), 0.5);
     EXPECT_EQ(error.at("threshold"), 0.1);
@@ -97,11 +98,11 @@ TEST(StatsJson, SequencesHaveEveryFrameAndTheLastOnTop) {
     const std::string file = (folder / "s.json").string();
     FrameLog log;
     write_json(file, make_document(make_record(5)), &log);
-    EXPECT_TRUE(Json::parse(text_of_file(file)).at("frames").empty());
+    EXPECT_TRUE(OrderedJson::parse(text_of_file(file)).at("frames").empty());
     log.add(make_record(3));
     log.add(make_record(5));
     write_json(file, make_document(make_record(5)), &log);
-    const Json json = Json::parse(text_of_file(file));
+    const OrderedJson json = OrderedJson::parse(text_of_file(file));
     EXPECT_EQ(json.at("frame_ms"), 105.0);
     ASSERT_EQ(json.at("frames").size(), 2u);
     EXPECT_EQ(json.at("frames")[0].at("frame"), 3);
@@ -129,9 +130,9 @@ TEST(StatsJson, FramesOnAFullDiskAreAnError) {
 TEST(StatsJson, WrittenWholeOrNotAtAll) {
     const TemporaryFolder folder;
     write_json((folder / "s.json").string(), make_document(make_record(0)));
-    EXPECT_EQ(Json::parse(text_of_file(folder / "s.json")).at("frame_ms"), 100.0);
-    const auto message =
-        message_of<Error>([&] { write_json((folder / "no/s.json").string(), Json::object()); });
+    EXPECT_EQ(OrderedJson::parse(text_of_file(folder / "s.json")).at("frame_ms"), 100.0);
+    const auto message = message_of<Error>(
+        [&] { write_json((folder / "no/s.json").string(), OrderedJson::object()); });
     EXPECT_TRUE(contains(message, "no/s.json")) << message;
     EXPECT_EQ(names_in(folder), (std::set<std::string>{"s.json"}));
 }

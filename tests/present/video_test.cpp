@@ -19,10 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kWidth = 48, kHeight = 32;
-constexpr std::size_t kPixels = std::size_t{kWidth} * kHeight;
+constexpr int kVideoWidth = 48, kVideoHeight = 32;
+constexpr std::size_t kPixels = std::size_t{kVideoWidth} * kVideoHeight;
 
-std::vector<std::string> small_render(const fs::path& output, std::vector<std::string> more = {}) {
+std::vector<std::string> small_video(const fs::path& output, std::vector<std::string> more = {}) {
     std::vector<std::string> words = {"render",   "grid", "--resolution", "48,32",        "-q",
                                       "--lights", "20",   "-o",           output.string()};
     words.insert(words.end(), more.begin(), more.end());
@@ -140,8 +140,8 @@ TEST(Video, PacesAreRatios) {
 TEST(Video, AY4mHoldsThePicturesOfTheSequence) {
     const TemporaryFolder folder;
     const std::vector<std::string> frames = {"--frames", "3:6", "--fps", "12.5"};
-    ASSERT_EQ(run_kilolux(small_render(folder / "f.#.png", frames)).code, 0);
-    const ChildResult result = run_kilolux(small_render(folder / "a.y4m", frames));
+    ASSERT_EQ(run_kilolux(small_video(folder / "f.#.png", frames)).code, 0);
+    const ChildResult result = run_kilolux(small_video(folder / "a.y4m", frames));
     ASSERT_EQ(result.code, 0) << result.err;
     const Y4m video = parse_y4m(text_of_file(folder / "a.y4m"));
     const std::string header =
@@ -167,8 +167,8 @@ TEST(Video, AY4mHoldsThePicturesOfTheSequence) {
 
 TEST(Video, StandardOutputHoldsTheSameBytesAndOnePictureIsOneFrame) {
     const TemporaryFolder folder;
-    ASSERT_EQ(run_kilolux(small_render(folder / "a.y4m")).code, 0);
-    const ChildResult piped = run_kilolux(small_render("-"));
+    ASSERT_EQ(run_kilolux(small_video(folder / "a.y4m")).code, 0);
+    const ChildResult piped = run_kilolux(small_video("-"));
     ASSERT_EQ(piped.code, 0) << piped.err;
     EXPECT_EQ(piped.out, text_of_file(folder / "a.y4m"));
     EXPECT_EQ(parse_y4m(piped.out).frames.size(), 1u);
@@ -178,11 +178,11 @@ TEST(Video, StandardOutputHoldsTheSameBytesAndOnePictureIsOneFrame) {
 // Codes that the renderer does not make itself go through the same transform.
 TEST(Video, ShowsTheErrorAgainstAReference) {
     const TemporaryFolder folder;
-    ASSERT_EQ(run_kilolux(small_render(folder / "r.exr")).code, 0);
+    ASSERT_EQ(run_kilolux(small_video(folder / "r.exr")).code, 0);
     const std::vector<std::string> shown = {"--show", "error", "--reference",
                                             (folder / "r.exr").string()};
-    ASSERT_EQ(run_kilolux(small_render(folder / "e.png", shown)).code, 0);
-    ASSERT_EQ(run_kilolux(small_render(folder / "e.y4m", shown)).code, 0);
+    ASSERT_EQ(run_kilolux(small_video(folder / "e.png", shown)).code, 0);
+    ASSERT_EQ(run_kilolux(small_video(folder / "e.y4m", shown)).code, 0);
     const Y4m video = parse_y4m(text_of_file(folder / "e.y4m"));
     ASSERT_EQ(video.frames.size(), 1u);
     const FloatImage png = read_image(folder / "e.png");
@@ -206,7 +206,7 @@ TEST(Video, ASignalLeavesNoFile) {
         if (fs::path(name).extension() == ".mp4" && !has_program("ffmpeg")) continue;
         const TemporaryFolder folder;
         const ChildResult result =
-            run_kilolux(small_render(folder / name, {"--frames", "0:1000000"}), [&](pid_t child) {
+            run_kilolux(small_video(folder / name, {"--frames", "0:1000000"}), [&](pid_t child) {
                 wait_for_bytes(folder, ".part");
                 kill(child, SIGINT);
             });
@@ -220,7 +220,7 @@ TEST(Video, ASignalEndsAPipedVideoAtAWholeFrame) {
     const TemporaryFolder folder;
     std::ostringstream command;
     command << "exec '" << program_file() << "'";
-    for (const std::string& word : small_render("-", {"--frames", "0:1000000"})) {
+    for (const std::string& word : small_video("-", {"--frames", "0:1000000"})) {
         command << " '" << word << "'";
     }
     command << " >'" << (folder / "out.y4m").string() << "'";
@@ -250,8 +250,8 @@ TEST_P(FfmpegVideo, HoldsThePicturesAndSaysItsColours) {
     const TemporaryFolder folder;
     const std::vector<std::string> frames = {"--frames", "0:4", "--fps", "10"};
     const std::string file = (folder / GetParam()).string();
-    ASSERT_EQ(run_kilolux(small_render(folder / "a.y4m", frames)).code, 0);
-    const ChildResult result = run_kilolux(small_render(file, frames));
+    ASSERT_EQ(run_kilolux(small_video(folder / "a.y4m", frames)).code, 0);
+    const ChildResult result = run_kilolux(small_video(file, frames));
     ASSERT_EQ(result.code, 0) << result.err;
     EXPECT_EQ(names_in(folder).size(), 2u);
     const std::string streams =
@@ -278,7 +278,7 @@ TEST_P(FfmpegVideo, HoldsThePicturesAndSaysItsColours) {
 
 // Renders again with --skip-existing; the video must be another one to be refused.
 ChildResult skip_existing(const fs::path& file, std::vector<std::string> more = {}) {
-    std::vector<std::string> words = small_render(file, {"--fps", "10", "--skip-existing"});
+    std::vector<std::string> words = small_video(file, {"--fps", "10", "--skip-existing"});
     words.erase(std::ranges::find(words, "-q"));
     if (std::ranges::find(more, "--frames") == more.end()) {
         words.insert(words.end(), {"--frames", "0:2"});
@@ -351,7 +351,7 @@ TEST(Video, TheSameCommandGivesTheSameBytesOfFfmpeg) {
     if (!has_program("ffmpeg")) GTEST_SKIP() << "needs ffmpeg";
     const TemporaryFolder folder;
     for (const char* name : {"a.mkv", "b.mkv"}) {
-        ASSERT_EQ(run_kilolux(small_render(folder / name)).code, 0);
+        ASSERT_EQ(run_kilolux(small_video(folder / name)).code, 0);
     }
     EXPECT_EQ(text_of_file(folder / "a.mkv"), text_of_file(folder / "b.mkv"));
 }
@@ -359,7 +359,7 @@ TEST(Video, TheSameCommandGivesTheSameBytesOfFfmpeg) {
 // kilolux render with PATH as its only program folder.
 ChildResult render_with_path(const fs::path& path, const fs::path& output) {
     std::vector<std::string> words = {"/usr/bin/env", "PATH=" + path.string(), program_file()};
-    for (std::string& word : small_render(output)) words.push_back(word);
+    for (std::string& word : small_video(output)) words.push_back(word);
     return run_child(words);
 }
 
@@ -380,7 +380,7 @@ TEST(Video, AMissingOrFailingFfmpegIsOneLine) {
 
 TEST(Video, RefusesWhatAVideoCannotHold) {
     const auto refusal = [](const fs::path& file, std::vector<std::string> more) {
-        const ChildResult result = run_kilolux(small_render(file, std::move(more)));
+        const ChildResult result = run_kilolux(small_video(file, std::move(more)));
         EXPECT_EQ(result.code, 2) << result.err;
         return result.err;
     };

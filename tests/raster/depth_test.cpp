@@ -11,7 +11,7 @@ using DepthTest = GlTest;
 
 // Relative error of a reconstructed position. llvmpipe interpolates depth in float32 from a plane
 // equation over the whole triangle; 4.5e-7 was seen.
-constexpr double kTolerance = 1e-6;
+constexpr double kDepthTolerance = 1e-6;
 
 struct Case {
     const char* name;
@@ -53,27 +53,27 @@ std::vector<Case> cases() {
 }
 
 // A triangle that covers the picture, tilted, in view space; and its plane.
-struct Surface {
+struct DepthSurface {
     std::array<glm::dvec3, 3> corners;
     glm::dvec3 normal;
     double offset;
 };
 
-Surface surface_at(double distance, double extent, std::mt19937& random) {
+DepthSurface surface_at(double distance, double extent, std::mt19937& random) {
     std::uniform_real_distribution<double> tilt(-0.3, 0.3);
     const double dx = tilt(random);
     const double dy = tilt(random);
     const auto point = [&](double x, double y) {
         return glm::dvec3(x * extent, y * extent, -distance + (dx * x + dy * y) * extent * 0.2);
     };
-    Surface s{{point(-4, -3), point(5, -3), point(0, 6)}, {}, 0};
+    DepthSurface s{{point(-4, -3), point(5, -3), point(0, 6)}, {}, 0};
     s.normal = glm::normalize(glm::cross(s.corners[1] - s.corners[0], s.corners[2] - s.corners[0]));
     return s;
 }
 
 // Where the ray of pixel coordinates (px, py) meets the plane, in double, from the projection
 // alone.
-glm::dvec3 hit(const Camera& camera, const Surface& s, int width, int height, double px,
+glm::dvec3 hit(const Camera& camera, const DepthSurface& s, int width, int height, double px,
                double py) {
     const glm::dmat4 view_from_clip = glm::inverse(clip_from_view(camera, width, height));
     const auto unproject = [&](double depth) {
@@ -89,11 +89,11 @@ glm::dvec3 hit(const Camera& camera, const Surface& s, int width, int height, do
 
 TEST_F(DepthTest, ReconstructsPositions) {
     std::mt19937 random(11);
-    constexpr int kWidth = 67;
-    constexpr int kHeight = 45;
+    constexpr int kDepthWidth = 67;
+    constexpr int kDepthHeight = 45;
     for (const Case& c : cases()) {
         const double extent = c.camera.orthographic ? 10.0 : c.distance;
-        Surface s = surface_at(c.distance, extent, random);
+        DepthSurface s = surface_at(c.distance, extent, random);
         // Vertices are float32 in the object's space, which is view space turned and moved in
         // double.
         Mesh mesh;
@@ -110,29 +110,29 @@ TEST_F(DepthTest, ReconstructsPositions) {
         const Scene scene = one_object(mesh, {}, world_from_view);
         GBufferNeeds full;
         full.layout = GBUFFER_FULL;
-        const HostGBuffer g = draw_gbuffer(scene, c.camera, kWidth, kHeight, full);
-        const View view = view_of(c.camera, kWidth, kHeight);
+        const HostGBuffer g = draw_gbuffer(scene, c.camera, kDepthWidth, kDepthHeight, full);
+        const View view = view_of(c.camera, kDepthWidth, kDepthHeight);
         double worst = 0.0;
         double worst_full = 0.0;
         int covered = 0;
-        for (int y = 0; y < kHeight; ++y) {
-            for (int x = 0; x < kWidth; ++x) {
+        for (int y = 0; y < kDepthHeight; ++y) {
+            for (int x = 0; x < kDepthWidth; ++x) {
                 const float depth = g.depth(x, y);
                 if (depth == 0.0f) continue;
                 ++covered;
                 const auto px = static_cast<float>(x) + 0.5f;
                 const auto py = static_cast<float>(y) + 0.5f;
                 const FV3 p = view_position(view, px, py, view_depth(view, px, py, depth));
-                const glm::dvec3 expected = hit(c.camera, s, kWidth, kHeight, px, py);
+                const glm::dvec3 expected = hit(c.camera, s, kDepthWidth, kDepthHeight, px, py);
                 const double scale = glm::length(expected) + (c.camera.orthographic ? 20.0 : 0.0);
                 worst = std::max(worst, glm::length(glm::dvec3(p.x, p.y, p.z) - expected) / scale);
                 worst_full = std::max(
                     worst_full, glm::length(g.vector(PLANE_POSITION_X, x, y) - expected) / scale);
             }
         }
-        EXPECT_GT(covered, kWidth * kHeight / 2) << c.name;
-        EXPECT_LT(worst, kTolerance) << c.name;
-        EXPECT_LT(worst_full, kTolerance) << c.name << ": the full layout's position";
+        EXPECT_GT(covered, kDepthWidth * kDepthHeight / 2) << c.name;
+        EXPECT_LT(worst, kDepthTolerance) << c.name;
+        EXPECT_LT(worst_full, kDepthTolerance) << c.name << ": the full layout's position";
     }
 }
 

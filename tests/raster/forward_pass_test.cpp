@@ -22,13 +22,13 @@ namespace {
 
 using ForwardPassTest = GlTest;
 
-constexpr int kWidth = 75;
-constexpr int kHeight = 41;
-constexpr uint kStride = 80;
+constexpr int kForwardWidth = 75;
+constexpr int kForwardHeight = 41;
+constexpr uint kForwardStride = 80;
 
 // Relative to the sum of what the lights could add: float32 sums in another order of rounding, and
 // divisions that a GPU may round otherwise.
-constexpr double kTolerance = 1e-5;
+constexpr double kForwardTolerance = 1e-5;
 
 // A wall, metallic panels in front of it, and a fence with holes.
 Scene boxes_scene() {
@@ -113,12 +113,13 @@ std::vector<float> draw(const Scene& scene, const ForwardFeatures& features,
                         const ForwardLights& lights) {
     const GpuScene gpu(scene);
     ForwardPass pass(gpu, features);
-    pass.draw(boxes_camera(), kWidth, kHeight, lights);
-    return pass.read_radiance(kStride);
+    pass.draw(boxes_camera(), kForwardWidth, kForwardHeight, lights);
+    return pass.read_radiance(kForwardStride);
 }
 
 HostGBuffer full_gbuffer(const Scene& scene) {
-    return draw_gbuffer(scene, boxes_camera(), kWidth, kHeight, make_needs(GBUFFER_FULL));
+    return draw_gbuffer(scene, boxes_camera(), kForwardWidth, kForwardHeight,
+                        make_needs(GBUFFER_FULL));
 }
 
 FV3 to_fv3(const glm::dvec3& v) {
@@ -157,14 +158,14 @@ FV3 shade_on_host(const Surface& s, const View& view, const Lights& lights) {
 TEST_F(ForwardPassTest, ShadesAsTheHostDoes) {
     const Scene scene = boxes_scene();
     const Lights lights = some_lights(200);
-    const View view = view_of(boxes_camera(), kWidth, kHeight);
+    const View view = view_of(boxes_camera(), kForwardWidth, kForwardHeight);
     const HostGBuffer g = full_gbuffer(scene);
     const std::vector<float> radiance = draw(scene, all_features(), lights.all());
     double brightest = 0;
-    for (int y = 0; y < kHeight; ++y) {
-        for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kForwardHeight; ++y) {
+        for (int x = 0; x < kForwardWidth; ++x) {
             const std::size_t pixel =
-                static_cast<std::size_t>(y) * kStride + static_cast<std::size_t>(x);
+                static_cast<std::size_t>(y) * kForwardStride + static_cast<std::size_t>(x);
             const float depth = g.depth(x, y);
             const auto shaded = [&](float at) {
                 const FV3 out = at > 0 ? shade_on_host(surface_at(g, view, x, y, at), view, lights)
@@ -177,9 +178,10 @@ TEST_F(ForwardPassTest, ShadesAsTheHostDoes) {
             brightest = std::max(brightest, wanted.x);
             for (int c = 0; c < 3; ++c) {
                 const double got =
-                    radiance[pixel + static_cast<std::size_t>(c) * kStride * kHeight];
-                ASSERT_NEAR(got, wanted[c],
-                            kTolerance * std::max(wanted[c], 1.0) + (depth > 0 ? rounding[c] : 0.0))
+                    radiance[pixel + static_cast<std::size_t>(c) * kForwardStride * kForwardHeight];
+                ASSERT_NEAR(
+                    got, wanted[c],
+                    kForwardTolerance * std::max(wanted[c], 1.0) + (depth > 0 ? rounding[c] : 0.0))
                     << x << "," << y << " channel " << c;
             }
         }
@@ -205,10 +207,10 @@ ClusterLists exact_lists(const Scene& scene, const Lights& lights) {
     out.grid.cluster_count = 5 * 3 * 12;
     std::vector<std::vector<bool>> reached(out.grid.cluster_count,
                                            std::vector<bool>(lights.local.size(), false));
-    const View view = view_of(boxes_camera(), kWidth, kHeight);
+    const View view = view_of(boxes_camera(), kForwardWidth, kForwardHeight);
     const HostGBuffer g = full_gbuffer(scene);
-    for (int y = 0; y < kHeight; ++y) {
-        for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kForwardHeight; ++y) {
+        for (int x = 0; x < kForwardWidth; ++x) {
             if (g.depth(x, y) == 0) continue;
             const FV3 p = surface_at(g, view, x, y, g.depth(x, y)).position;
             const uint cluster =
@@ -267,11 +269,11 @@ TEST_F(ForwardPassTest, NoLightsLeaveEmissionAndAmbient) {
     ForwardLights lights;
     lights.ambient = 0.5f;
     const std::vector<float> radiance = draw(scene, ForwardFeatures{}, lights);
-    const std::size_t plane = std::size_t{kStride} * kHeight;
+    const std::size_t plane = std::size_t{kForwardStride} * kForwardHeight;
     EXPECT_EQ(radiance[0], 1.0f);
     EXPECT_EQ(radiance[plane], 0.5f);
     EXPECT_EQ(radiance[2 * plane], 4.125f);
-    EXPECT_EQ(radiance[kWidth], 0.0f) << "past the width";
+    EXPECT_EQ(radiance[kForwardWidth], 0.0f) << "past the width";
 }
 
 using LightArrayTest = GlTest;

@@ -8,8 +8,8 @@ namespace {
 
 using GBufferLayoutsTest = GlTest;
 
-constexpr int kWidth = 37;
-constexpr int kHeight = 23;
+constexpr int kLayoutWidth = 37;
+constexpr int kLayoutHeight = 23;
 
 Scene tilted_scene() {
     Mesh mesh = quad_mesh(30.0f);
@@ -31,7 +31,8 @@ Camera tilted_camera() {
 GBufferNeeds needs_of(uint layout) { return make_needs(layout, 2.0f); }
 
 HostGBuffer draw(uint layout) {
-    return draw_gbuffer(tilted_scene(), tilted_camera(), kWidth, kHeight, needs_of(layout));
+    return draw_gbuffer(tilted_scene(), tilted_camera(), kLayoutWidth, kLayoutHeight,
+                        needs_of(layout));
 }
 
 double half_value(std::uint16_t bits) {
@@ -50,8 +51,8 @@ glm::dvec3 half_vector(const HostGBuffer& g, uint plane, int x, int y) {
 
 template <typename Check>
 void for_each_pixel(Check check) {
-    for (int y = 0; y < kHeight; ++y) {
-        for (int x = 0; x < kWidth; ++x) check(x, y);
+    for (int y = 0; y < kLayoutHeight; ++y) {
+        for (int x = 0; x < kLayoutWidth; ++x) check(x, y);
     }
 }
 
@@ -154,8 +155,8 @@ TEST_F(GBufferLayoutsTest, PlanesReadIntoAPixelPackBuffer) {
     const GpuScene gpu(scene);
     const GBufferNeeds needs = needs_of(GBUFFER_PACKED);
     GeometryPass pass(gpu, needs);
-    pass.draw(tilted_camera(), kWidth, kHeight);
-    const GBufferLayout layout = make_gbuffer_layout(needs, 48, kHeight);
+    pass.draw(tilted_camera(), kLayoutWidth, kLayoutHeight);
+    const GBufferLayout layout = make_gbuffer_layout(needs, 48, kLayoutHeight);
     const std::vector<std::byte> expected = read_gbuffer(pass.targets(), layout, 48);
     const std::vector<std::byte> zero(expected.size());
     const GlBuffer buffer = make_buffer();

@@ -11,12 +11,12 @@ namespace {
 
 using MaterialTest = GlTest;
 
-const GBufferNeeds kFull = make_needs(GBUFFER_FULL);
+const GBufferNeeds kMaterialNeeds = make_needs(GBUFFER_FULL);
 
 // A quad that fills 16 x 16 pixels exactly, so that a pixel (x, y) has texture coordinates
 // ((x + 0.5) / 16, (y + 0.5) / 16).
 HostGBuffer draw_filled(const Scene& scene) {
-    return draw_gbuffer(scene, front_camera(1), 16, 16, kFull);
+    return draw_gbuffer(scene, front_camera(1), 16, 16, kMaterialNeeds);
 }
 
 TEST_F(MaterialTest, ColourTexturesAreSrgbAndUpright) {
@@ -89,7 +89,7 @@ TEST_F(MaterialTest, MipmapsAverageLightNotCodes) {
     sampler.mipmaps = true;
     sampler.minify = sampler.between_mipmaps = Filter::linear;
     scene.materials[0].base_color_texture = use;
-    const HostGBuffer g = draw_gbuffer(scene, front_camera(0.11), 11, 11, kFull);
+    const HostGBuffer g = draw_gbuffer(scene, front_camera(0.11), 11, 11, kMaterialNeeds);
     EXPECT_NEAR(g.vector(PLANE_ALBEDO_R, 5, 5).x, 0.5, 0.01);
 }
 
@@ -223,7 +223,7 @@ TEST_F(MaterialTest, VariantsHoldOnlyWhatTheSceneNeeds) {
     scene.meshes[1].material = 1;
     const GpuScene gpu(scene);
     EXPECT_EQ(GeometryPass(gpu, {}).variant_count(), 1u) << "no plane for emission, no variant";
-    EXPECT_EQ(GeometryPass(gpu, kFull).variant_count(), 2u);
+    EXPECT_EQ(GeometryPass(gpu, kMaterialNeeds).variant_count(), 2u);
 }
 
 TEST_F(MaterialTest, ImagesTooLargeForTheDriverAreErrors) {

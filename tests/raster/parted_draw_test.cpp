@@ -71,22 +71,22 @@ TEST_F(PartedDrawTest, APassIsDividedByWhatItTookBefore) {
 
 TEST_F(PartedDrawTest, RowsThatAreSlowAreDrawnByColumns) {
     const WorkWatch watch([](double) {});
-    constexpr int kWidth = 100, kHeight = 10;
-    std::vector<int> drawn(static_cast<std::size_t>(kWidth) * 12);
+    constexpr int kPartedWidth = 100, kPartedHeight = 10;
+    std::vector<int> drawn(static_cast<std::size_t>(kPartedWidth) * 12);
     int first = 0;
-    draw_in_parts(kWidth, kHeight, {kUnknown, 64.0}, [&] {
+    draw_in_parts(kPartedWidth, kPartedHeight, {kUnknown, 64.0}, [&] {
         int box[4];
         glGetIntegerv(GL_SCISSOR_BOX, box);
         if (first == 0) first = box[2] * box[3];
         for (int y = box[1]; y < box[1] + box[3]; ++y) {
             for (int x = box[0]; x < box[0] + box[2]; ++x) {
-                ++drawn.at(static_cast<std::size_t>(y * kWidth + x));
+                ++drawn.at(static_cast<std::size_t>(y * kPartedWidth + x));
             }
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(60));
     });
     EXPECT_EQ(first, 64);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(kWidth) * kHeight; ++i) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(kPartedWidth) * kPartedHeight; ++i) {
         ASSERT_EQ(drawn[i], 1) << i;
     }
 }

@@ -9,11 +9,11 @@ namespace {
 
 using SamplerTest = GlTest;
 
-const GBufferNeeds kFull = make_needs(GBUFFER_FULL);
+const GBufferNeeds kSamplerNeeds = make_needs(GBUFFER_FULL);
 constexpr int kPixels = 32;  // side of the picture that the quad fills
 // Of a value in [0, 1]: hardware filters with 8-bit weights and keeps mipmaps in 8 bits of sRGB,
 // which are up to 0.009 apart in light.
-constexpr double kTolerance = 0.012;
+constexpr double kSamplerTolerance = 0.012;
 
 const char* name_of(Wrap wrap) {
     return wrap == Wrap::repeat ? "repeat" : wrap == Wrap::clamp ? "clamp" : "mirror";
@@ -59,7 +59,7 @@ double error_of(const Sampler& sampler, int width, int height, const glm::dvec2&
     Scene scene = textured_quad(glm::vec2(low), glm::vec2(high));
     scene.materials[0].base_color_texture = add_texture(scene, width, height, grey_rgba(codes));
     scene.textures[0].sampler = sampler;
-    const HostGBuffer g = draw_gbuffer(scene, front_camera(1), kPixels, kPixels, kFull);
+    const HostGBuffer g = draw_gbuffer(scene, front_camera(1), kPixels, kPixels, kSamplerNeeds);
     return largest_error(g, grey_levels(width, height, codes), sampler, low, high);
 }
 
@@ -71,7 +71,7 @@ TEST_F(SamplerTest, EveryWrapModeBothWaysWithBothFilters) {
         for (const Filter filter : {Filter::nearest, Filter::linear}) {
             // Magnified: 16 x 8 texels in 32 x 32 pixels, two periods to either side.
             const Sampler sampler{s, t, filter, Filter::nearest, false, {}};
-            EXPECT_LT(error_of(sampler, 4, 2, {-1.53, -1.47}, {2.47, 2.53}), kTolerance)
+            EXPECT_LT(error_of(sampler, 4, 2, {-1.53, -1.47}, {2.47, 2.53}), kSamplerTolerance)
                 << name_of(s) << " " << name_of(t) << " " << name_of(filter);
         }
     }
@@ -82,9 +82,9 @@ TEST_F(SamplerTest, MagnifyAndMinifyHaveTheirOwnFilter) {
         for (const Filter minify : {Filter::nearest, Filter::linear}) {
             const Sampler sampler{Wrap::repeat, Wrap::repeat, magnify, minify, false, {}};
             const std::string name = std::string(name_of(magnify)) + " " + name_of(minify);
-            EXPECT_LT(error_of(sampler, 16, 16, {0.01, 0.02}, {1.01, 1.02}), kTolerance)
+            EXPECT_LT(error_of(sampler, 16, 16, {0.01, 0.02}, {1.01, 1.02}), kSamplerTolerance)
                 << name << " magnified";
-            EXPECT_LT(error_of(sampler, 256, 256, {0.01, 0.02}, {1.01, 1.02}), kTolerance)
+            EXPECT_LT(error_of(sampler, 256, 256, {0.01, 0.02}, {1.01, 1.02}), kSamplerTolerance)
                 << name << " minified, no mipmaps";
         }
     }
@@ -97,7 +97,7 @@ TEST_F(SamplerTest, MipmapsAreChosenByTheMinifyFilter) {
         const Sampler sampler{Wrap::repeat, Wrap::repeat, Filter::linear, minify, true, between};
         const double span = kPixels * std::exp2(lod) / 256;
         EXPECT_LT(error_of(sampler, 256, 256, {0.011, 0.023}, {0.011 + span, 0.023 + span}),
-                  between == Filter::linear ? 2 * kTolerance : kTolerance)
+                  between == Filter::linear ? 2 * kSamplerTolerance : kSamplerTolerance)
             << name_of(minify) << ", between mipmaps " << name_of(between) << ", lod " << lod;
     };
     for (const Filter minify : {Filter::nearest, Filter::linear}) {
@@ -113,7 +113,7 @@ HostGBuffer far_checkerboard(bool mipmaps, Filter filter) {
     Scene scene = one_object(quad_mesh(), {}, translation({0.013, 0.007, -6.1}));
     scene.materials[0].base_color_texture = add_texture(scene, 256, 256, grey_rgba(codes));
     scene.textures[0].sampler = {Wrap::repeat, Wrap::repeat, filter, filter, mipmaps, filter};
-    return draw_gbuffer(scene, front_camera(1), 256, 256, kFull);
+    return draw_gbuffer(scene, front_camera(1), 256, 256, kSamplerNeeds);
 }
 
 TEST_F(SamplerTest, AFarCheckerboardIsGreyWithMipmapsAndTexelsWithout) {
@@ -143,7 +143,7 @@ TEST_F(SamplerTest, BelongsToTheTextureNotToTheImage) {
     material.emissive_texture.texture = 1;
     scene.textures.push_back(scene.textures[0]);
     scene.textures[1].sampler.wrap_s = Wrap::clamp;
-    const HostGBuffer g = draw_gbuffer(scene, front_camera(1), kPixels, kPixels, kFull);
+    const HostGBuffer g = draw_gbuffer(scene, front_camera(1), kPixels, kPixels, kSamplerNeeds);
     EXPECT_EQ(g.vector(PLANE_ALBEDO_R, 20, 8), glm::dvec3(1, 0, 0)) << "repeats";
     EXPECT_EQ(g.vector(PLANE_EMISSIVE_R, 20, 8), glm::dvec3(0, 1, 0)) << "stays at its edge";
     EXPECT_EQ(GpuScene(scene).image_count(), 1u);
@@ -166,11 +166,11 @@ class AnisotropyTest : public GlTest {
         const bool mipmaps = filter == Filter::linear;
         scene.textures[0].sampler = {Wrap::clamp, Wrap::clamp, filter, filter, mipmaps, filter};
         const GpuScene gpu(scene, anisotropy);
-        GeometryPass pass(gpu, kFull);
+        GeometryPass pass(gpu, kSamplerNeeds);
         const Camera camera = look_at({0, 0.12, 1}, {0, 0, 0}, {0, 1, 0}, glm::radians(40.0));
         pass.draw(camera, 128, 128);
         const uint stride = view_of(camera, 128, 128).stride;
-        const GBufferLayout layout = make_gbuffer_layout(kFull, stride, 128);
+        const GBufferLayout layout = make_gbuffer_layout(kSamplerNeeds, stride, 128);
         picture_ = {layout, stride, read_gbuffer(pass.targets(), layout, stride)};
         double sum = 0.0;
         double squares = 0.0;

@@ -17,7 +17,7 @@ RenderSettings auto_settings(int width, int height, float error, int most) {
     return settings;
 }
 
-double luminance(const std::vector<float>& rgb, std::size_t pixel) {
+double rec709_of(const std::vector<float>& rgb, std::size_t pixel) {
     const float* c = &rgb[3 * pixel];
     return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
 }
@@ -26,8 +26,8 @@ double luminance(const std::vector<float>& rgb, std::size_t pixel) {
 double squared_error(const std::vector<float>& seen, const std::vector<float>& reference) {
     double sum = 0.0;
     for (std::size_t i = 0; i < seen.size() / 3; ++i) {
-        const double r = luminance(reference, i);
-        const double d = luminance(seen, i) - r;
+        const double r = rec709_of(reference, i);
+        const double d = rec709_of(seen, i) - r;
         sum += d * d / (r * r + kSampleErrorFloor * kSampleErrorFloor);
     }
     return sum / (static_cast<double>(seen.size()) / 3.0);
@@ -156,7 +156,7 @@ TEST(AutoSamples, LayersAreTheCentresAndTheMeansError) {
     EXPECT_EQ(frame.stats.samples.open_tiles, 0u);
     double sum = 0.0;
     for (std::size_t i = 0; i < taken.size(); ++i) {
-        const double l = luminance(frame.radiance, i);
+        const double l = rec709_of(frame.radiance, i);
         sum += std::pow(frame.aovs[4].values[i], 2.0) /
                (l * l + kSampleErrorFloor * kSampleErrorFloor);
     }

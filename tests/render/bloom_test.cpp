@@ -12,7 +12,7 @@
 namespace kilolux {
 namespace {
 
-struct Picture {
+struct BloomPicture {
     View view{};
     std::vector<float> planes;  // [3][height][stride]
 
@@ -29,8 +29,8 @@ struct Picture {
 };
 
 // Pixels past the width must not bloom into the picture.
-Picture picture(uint width, uint height, float value = 0.0f) {
-    Picture out;
+BloomPicture picture(uint width, uint height, float value = 0.0f) {
+    BloomPicture out;
     out.view.width = width;
     out.view.height = height;
     out.view.stride = (width + 15) / 16 * 16;
@@ -49,14 +49,14 @@ Gpu gpu_of(int lanes) {
     return open_device(settings);
 }
 
-Picture bloomed(const Gpu& gpu, const Picture& source, float share) {
+BloomPicture bloomed(const Gpu& gpu, const BloomPicture& source, float share) {
     GrowingBuffer buffer(gpu, "test");
     buffer.reserve(source.planes.size() * sizeof(float));
     upload<float>(gpu, buffer.get(), source.planes);
     Bloom stage(gpu);
     StageTimer timer;
     const Radiance out = stage.enqueue({buffer.get(), source.view}, share, timer);
-    Picture picture{source.view, download<float>(gpu, out.planes, source.planes.size())};
+    BloomPicture picture{source.view, download<float>(gpu, out.planes, source.planes.size())};
     const auto after = download<float>(gpu, buffer.get(), source.planes.size());
     EXPECT_EQ(std::memcmp(after.data(), source.planes.data(), after.size() * sizeof(float)), 0);
     return picture;
@@ -66,9 +66,9 @@ TEST(Bloom, KeepsTheEnergyOfImpulses) {
     const Gpu gpu = gpu_of(0);
     const std::pair<uint, uint> places[] = {{128, 64}, {127, 63}, {70, 41}, {0, 0}, {255, 5}};
     for (const auto& [x, y] : places) {
-        Picture source = picture(256, 128);
+        BloomPicture source = picture(256, 128);
         for (uint c = 0; c < 3; ++c) source.at(c, x, y) = 1000.0f * static_cast<float>(c + 1);
-        Picture out = bloomed(gpu, source, 0.3f);
+        BloomPicture out = bloomed(gpu, source, 0.3f);
         for (uint c = 0; c < 3; ++c) {
             const double given = 1000.0 * (c + 1);
             EXPECT_NEAR(out.sum(c), given, 1e-5 * given) << x << ", " << y << ", plane " << c;
@@ -81,7 +81,7 @@ TEST(Bloom, KeepsTheEnergyOfImpulses) {
 
 TEST(Bloom, KeepsTheEnergyOfInteriorImpulsesAtOddSizes) {
     const Gpu gpu = gpu_of(0);
-    Picture source = picture(243, 201);
+    BloomPicture source = picture(243, 201);
     source.at(1, 121, 100) = 50.0f;
     EXPECT_NEAR(bloomed(gpu, source, 1.0f).sum(1), 50.0, 50.0 * 1e-3);
 }
@@ -90,7 +90,7 @@ TEST(Bloom, LeavesAConstantImageAsItIs) {
     for (const auto& [width, height] : std::vector<std::pair<uint, uint>>{
              {1, 1}, {17, 31}, {16, 16}, {33, 95}, {100, 1}, {160, 90}}) {
         for (const int lanes : {1, 8}) {
-            Picture out = bloomed(gpu_of(lanes), picture(width, height, 0.37f), 0.8f);
+            BloomPicture out = bloomed(gpu_of(lanes), picture(width, height, 0.37f), 0.8f);
             for (uint c = 0; c < 3; ++c) {
                 for (uint y = 0; y < height; ++y) {
                     for (uint x = 0; x < width; ++x) {
@@ -103,8 +103,8 @@ TEST(Bloom, LeavesAConstantImageAsItIs) {
     }
 }
 
-Picture noise(uint width, uint height) {
-    Picture out = picture(width, height);
+BloomPicture noise(uint width, uint height) {
+    BloomPicture out = picture(width, height);
     std::uint32_t state = 1;
     for (float& value : out.planes) {
         state = state * 1664525u + 1013904223u;
@@ -115,15 +115,15 @@ Picture noise(uint width, uint height) {
 
 TEST(Bloom, IsMirrorSymmetric) {
     const Gpu gpu = gpu_of(0);
-    Picture source = noise(128, 64);
-    Picture mirrored = source;
+    BloomPicture source = noise(128, 64);
+    BloomPicture mirrored = source;
     for (uint c = 0; c < 3; ++c) {
         for (uint y = 0; y < 64; ++y) {
             for (uint x = 0; x < 128; ++x) mirrored.at(c, x, y) = source.at(c, 127 - x, 63 - y);
         }
     }
-    Picture a = bloomed(gpu, source, 0.5f);
-    Picture b = bloomed(gpu, mirrored, 0.5f);
+    BloomPicture a = bloomed(gpu, source, 0.5f);
+    BloomPicture b = bloomed(gpu, mirrored, 0.5f);
     for (uint c = 0; c < 3; ++c) {
         for (uint y = 0; y < 64; ++y) {
             for (uint x = 0; x < 128; ++x) {
@@ -134,10 +134,10 @@ TEST(Bloom, IsMirrorSymmetric) {
 }
 
 TEST(Bloom, SameBitsForEveryLaneWidth) {
-    const Picture source = noise(83, 61);
-    Picture expected = bloomed(gpu_of(1), source, 0.5f);
+    const BloomPicture source = noise(83, 61);
+    BloomPicture expected = bloomed(gpu_of(1), source, 0.5f);
     for (const int lanes : {2, 4, 8, 16}) {
-        Picture found = bloomed(gpu_of(lanes), source, 0.5f);
+        BloomPicture found = bloomed(gpu_of(lanes), source, 0.5f);
         for (uint y = 0; y < 61; ++y) {
             for (uint x = 0; x < 83; ++x) {
                 ASSERT_EQ(found.at(2, x, y), expected.at(2, x, y)) << lanes << " lanes";
@@ -147,10 +147,10 @@ TEST(Bloom, SameBitsForEveryLaneWidth) {
 }
 
 TEST(Bloom, WhatIsNoLightDoesNotSpread) {
-    Picture source = picture(64, 64, 1.0f);
+    BloomPicture source = picture(64, 64, 1.0f);
     source.at(0, 30, 30) = std::numeric_limits<float>::quiet_NaN();
     source.at(1, 30, 30) = -1e30f;
-    Picture out = bloomed(gpu_of(0), source, 0.5f);
+    BloomPicture out = bloomed(gpu_of(0), source, 0.5f);
     EXPECT_GE(out.at(0, 31, 30), 0.9f);
     EXPECT_GE(out.at(1, 31, 30), 0.9f);
 }
@@ -173,7 +173,7 @@ TEST(Bloom, IsOfTheDisplayOnly) {
 
 TEST(Bloom, NoShareIsTheSameBuffer) {
     const Gpu gpu = gpu_of(0);
-    const Picture source = noise(64, 64);
+    const BloomPicture source = noise(64, 64);
     EXPECT_EQ(bloomed(gpu, source, 0.0f).planes, source.planes);
 }
 

@@ -8,7 +8,7 @@ namespace kilolux {
 namespace {
 
 // The grid scene seen from farther off: pixels without a surface, and a ragged last tile.
-struct Picture {
+struct DisplayedPicture {
     Scene scene = grid_with_every_light();
     RenderSettings settings = small_settings(83, 51);
     Camera camera() const {
@@ -22,13 +22,8 @@ struct Picture {
     }
 };
 
-bool has_stage(const Frame& frame, std::string_view name) {
-    return std::ranges::any_of(frame.stats.stages,
-                               [&](const StageTime& stage) { return stage.name == name; });
-}
-
 // Without radiance shading makes the picture; with it, tone mapping does.
-void expect_same_display(Picture picture) {
+void expect_same_display(DisplayedPicture picture) {
     const Frame shaded = picture.render(false);
     const Frame mapped = picture.render(true);
     EXPECT_TRUE(shaded.stats.shaded_display);
@@ -40,7 +35,7 @@ void expect_same_display(Picture picture) {
 }
 
 TEST(ShadedDisplay, HasToneMappingsBitsByEveryCurve) {
-    Picture picture;
+    DisplayedPicture picture;
     picture.settings.exposure = 1.5f;
     for (const ToneCurve curve :
          {ToneCurve::none, ToneCurve::neutral, ToneCurve::aces, ToneCurve::agx}) {
@@ -51,7 +46,7 @@ TEST(ShadedDisplay, HasToneMappingsBitsByEveryCurve) {
 }
 
 TEST(ShadedDisplay, HasBackgroundAndLight) {
-    Picture picture;
+    DisplayedPicture picture;
     const Frame frame = picture.render(false);
     std::size_t black = 0;
     for (std::size_t i = 0; i < frame.display.size(); i += 4) {
@@ -65,14 +60,14 @@ TEST(ShadedDisplay, HasBackgroundAndLight) {
 TEST(ShadedDisplay, InLaneWidths) {
     for (const int lanes : {1, 8}) {
         SCOPED_TRACE(std::to_string(lanes) + " lanes");
-        Picture picture;
+        DisplayedPicture picture;
         picture.settings.kernels.lanes = lanes;
         expect_same_display(picture);
     }
 }
 
 TEST(ShadedDisplay, InBandsAndLayouts) {
-    Picture picture;
+    DisplayedPicture picture;
     picture.settings.band_rows = 16;
     for (const uint layout : {GBUFFER_PACKED, GBUFFER_FULL}) {
         SCOPED_TRACE("layout " + std::to_string(layout));
@@ -83,14 +78,14 @@ TEST(ShadedDisplay, InBandsAndLayouts) {
 
 TEST(ShadedDisplay, WithShadows) {
     for (const Shadows shadows : {Shadows::exact, Shadows::sampled}) {
-        Picture picture;
+        DisplayedPicture picture;
         picture.settings.shadows = shadows;
         expect_same_display(picture);
     }
 }
 
 TEST(ShadedDisplay, InTheCallersMemory) {
-    Picture picture;
+    DisplayedPicture picture;
     const Frame mapped = picture.render(true);
     picture.settings.want.radiance = false;
     const auto [width, height] = std::pair(picture.settings.width, picture.settings.height);
@@ -110,7 +105,7 @@ TEST(ShadedDisplay, InTheCallersMemory) {
 // Tone mapping makes it where other stages read or change the light, or arithmetic would differ.
 TEST(ShadedDisplay, IsLeftToToneMappingElsewhere) {
     const auto expect_mapped = [](auto change) {
-        Picture picture;
+        DisplayedPicture picture;
         change(picture.settings);
         const Frame frame = picture.render(false);
         EXPECT_FALSE(frame.stats.shaded_display);

@@ -13,7 +13,7 @@ namespace kilolux {
 namespace {
 
 // Exactly representable, so that only the sums with it round.
-const glm::dvec3 kFar(0x1p20, -0x1p20, 0x1p20);
+const glm::dvec3 kFarAway(0x1p20, -0x1p20, 0x1p20);
 
 Frame render_at(const glm::dvec3& offset, RendererKind renderer) {
     Scene scene = make_generated_scene("plain", 1);
@@ -35,7 +35,7 @@ Frame render_at(const glm::dvec3& offset, RendererKind renderer) {
 
 TEST(FarFromOrigin, AMillionMetresAwayThePictureIsTheSame) {
     const Frame near = render_at(glm::dvec3(0.0), RendererKind::deferred);
-    const Frame far = render_at(kFar, RendererKind::deferred);
+    const Frame far = render_at(kFarAway, RendererKind::deferred);
     std::size_t off = 0;
     for (std::size_t i = 0; i < near.radiance.size(); ++i) {
         // 1e-4: what a pixel's edge moves by when a vertex rounds; a wrong order of subtraction
@@ -47,8 +47,8 @@ TEST(FarFromOrigin, AMillionMetresAwayThePictureIsTheSame) {
 }
 
 TEST(FarFromOrigin, ListsChangeNoBitThere) {
-    EXPECT_EQ(render_at(kFar, RendererKind::deferred).radiance,
-              render_at(kFar, RendererKind::deferred_all).radiance);
+    EXPECT_EQ(render_at(kFarAway, RendererKind::deferred).radiance,
+              render_at(kFarAway, RendererKind::deferred_all).radiance);
 }
 
 }  // namespace

@@ -126,15 +126,6 @@ TEST(LightTreePictures, EveryLightCountsOnce) {
     EXPECT_GT(probed, 2);
 }
 
-void expect_refused(const Scene& scene, const RenderSettings& settings, std::string_view reason) {
-    try {
-        Renderer renderer(scene, settings);
-        FAIL() << "accepted";
-    } catch (const UsageError& error) {
-        EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
-    }
-}
-
 TEST(LightTreePictures, AreRefusedWhereThereAreNone) {
     Scene scene = scene_of_points(10);
     RenderSettings settings = tree_settings(0.3f);

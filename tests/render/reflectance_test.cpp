@@ -14,11 +14,11 @@ Scene glossy_scene() {
     return scene;
 }
 
-const Layer& layer(const Frame& frame, const std::string& name) {
+const Layer& named_layer(const Frame& frame, const std::string& name) {
     for (const Layer& l : frame.aovs) {
         if (l.name == name) return l;
     }
-    throw std::runtime_error("no layer " + name);
+    throw std::runtime_error("no named_layer " + name);
 }
 
 double worst_relative(const Frame& a, const Frame& b) {
@@ -39,9 +39,9 @@ TEST(Unlit, LeavesTheSurfaceAsItIsAmongGlossyOnes) {
         settings.gbuffer = layout;
         settings.want.aovs = {"emissive", "depth"};
         const Frame frame = render_once(scene, settings);
-        const Layer& emissive = layer(frame, "emissive");
+        const Layer& emissive = named_layer(frame, "emissive");
         std::size_t unlit = 0, lit = 0;
-        for (std::size_t i = 0; i < layer(frame, "depth").values.size(); ++i) {
+        for (std::size_t i = 0; i < named_layer(frame, "depth").values.size(); ++i) {
             if (emissive.values[3 * i + 2] == 0.0f) {
                 lit += frame.radiance[3 * i] > 0.0f;
                 continue;

@@ -55,11 +55,6 @@ class Script {
     double time = 0.0;
 };
 
-bool has_stage(const Frame& frame, const std::string& name) {
-    return std::ranges::any_of(frame.stats.stages,
-                               [&](const StageTime& stage) { return stage.name == name; });
-}
-
 TEST(Reuse, ChangesNoByteOfRandomScripts) {
     const Scene scene = grid_with_every_light();
     Script script(scene, 5);

@@ -11,11 +11,6 @@ namespace {
 
 using nlohmann::json;
 
-bool has_stage(const Frame& frame, const char* name) {
-    return std::ranges::any_of(frame.stats.stages,
-                               [&](const StageTime& stage) { return stage.name == name; });
-}
-
 RenderSettings settings_with_shadows() {
     RenderSettings settings = small_settings(96, 64, 40);
     settings.shadows = Shadows::exact;

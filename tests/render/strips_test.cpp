@@ -12,7 +12,7 @@
 namespace kilolux {
 namespace {
 
-constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
+constexpr std::uint64_t kMebibyte = std::uint64_t{1} << 20;
 constexpr std::uint64_t kGiB = std::uint64_t{1} << 30;
 
 // The strip's part of values of the whole picture, `channels` a pixel.
@@ -229,7 +229,7 @@ TEST(Strips, LetPicturesFitThatDoNotFitAsAWhole) {
     EXPECT_GE(plan.strip_rows, plan.band_rows);
     EXPECT_LE(plan.bytes, 2 * kGiB);
     EXPECT_LE(65536u * static_cast<std::uint64_t>(plan.strip_rows), kStripPixels);
-    EXPECT_THROW(plan_of_size(65536, 65536, 300 * kMiB, 1), Error);
+    EXPECT_THROW(plan_of_size(65536, 65536, 300 * kMebibyte, 1), Error);
 }
 
 TEST(Strips, AreThoseOfLargePicturesOnly) {
@@ -246,7 +246,7 @@ TEST(Strips, AreThoseOfLargePicturesOnly) {
 TEST(Strips, LeaveMemoryToBandsAndLists) {
     std::uint64_t former = 0;
     for (std::uint64_t memory = 400; memory < 8192; memory += 50) {
-        const std::uint64_t bytes = plan_of_size(8192, 8192, memory * kMiB, 1).device_bytes;
+        const std::uint64_t bytes = plan_of_size(8192, 8192, memory * kMebibyte, 1).device_bytes;
         EXPECT_GT(bytes, former / 2) << memory << " MiB";
         former = bytes;
     }

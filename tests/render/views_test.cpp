@@ -13,13 +13,13 @@
 namespace kilolux {
 namespace {
 
-constexpr int kWidth = 160;
-constexpr int kHeight = 90;
+constexpr int kViewWidth = 160;
+constexpr int kViewHeight = 90;
 
 Frame frame_of(const std::string& view, RendererKind renderer = RendererKind::deferred,
                std::vector<std::string> aovs = {}, Shadows shadows = Shadows::off) {
     static const Scene scene = make_generated_scene("grid");
-    RenderSettings settings = small_settings(kWidth, kHeight, 200);
+    RenderSettings settings = small_settings(kViewWidth, kViewHeight, 200);
     settings.want.view = parse_view(view);
     settings.renderer = renderer;
     settings.shadows = shadows;
@@ -28,7 +28,8 @@ Frame frame_of(const std::string& view, RendererKind renderer = RendererKind::de
 }
 
 DisplayColor color_at(const std::vector<std::uint8_t>& rgba, int x, int y) {
-    const std::size_t i = 4 * (static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x));
+    const std::size_t i =
+        4 * (static_cast<std::size_t>(y) * kViewWidth + static_cast<std::size_t>(x));
     return {rgba[i], rgba[i + 1], rgba[i + 2]};
 }
 
@@ -41,7 +42,7 @@ TEST(Views, EachIsAPictureOfItsOwnAndLeavesTheRadianceAlone) {
         const Frame frame =
             frame_of(name, RendererKind::deferred, {}, shadows ? Shadows::exact : Shadows::off);
         EXPECT_EQ(frame.radiance, (shadows ? shadowed : lit).radiance) << name;
-        ASSERT_EQ(frame.display.size(), std::size_t{4} * kWidth * kHeight) << name;
+        ASSERT_EQ(frame.display.size(), std::size_t{4} * kViewWidth * kViewHeight) << name;
         for (std::size_t i = 3; i < frame.display.size(); i += 4) ASSERT_EQ(frame.display[i], 255);
         EXPECT_TRUE(pictures.insert({frame.display.begin(), frame.display.end()}).second)
             << name << " looks like another view";
@@ -57,8 +58,9 @@ TEST(Views, UnknownNamesAreUsageErrors) {
 // Pixels above the legend.
 template <typename Visit>
 void for_upper_half(const Visit& visit) {
-    for (int y = 0; y < kHeight / 2; ++y) {
-        for (int x = 0; x < kWidth; ++x) visit(x, y, static_cast<std::size_t>(y * kWidth + x));
+    for (int y = 0; y < kViewHeight / 2; ++y) {
+        for (int x = 0; x < kViewWidth; ++x)
+            visit(x, y, static_cast<std::size_t>(y * kViewWidth + x));
     }
 }
 
@@ -80,7 +82,7 @@ TEST(Views, LightsAreTheCountsOfTheAov) {
 TEST(Views, NormalsAndAlbedoAreTheAovs) {
     const Frame normal = frame_of("normal", RendererKind::deferred, {"normal", "depth"});
     const Frame albedo = frame_of("albedo", RendererKind::deferred, {"albedo", "depth"});
-    for (int i = 0; i < kWidth * kHeight; ++i) {
+    for (int i = 0; i < kViewWidth * kViewHeight; ++i) {
         const auto pixel = static_cast<std::size_t>(i);
         if (normal.aovs[1].values[pixel] == 0.0f) continue;
         for (std::size_t c = 0; c < 3; ++c) {

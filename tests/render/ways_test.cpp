@@ -100,12 +100,12 @@ Camera hill_camera() {
     return look_at({1.0, 1.6, 4.5}, {0, 0.4, -1}, {0, 1, 0}, glm::radians(60.0));
 }
 
-constexpr int kWidth = 144;
-constexpr int kHeight = 80;
+constexpr int kWayWidth = 144;
+constexpr int kWayHeight = 80;
 
 // As kernels/shared/triangle.h says, rounding moves a triangle by a few 2^-24 of its distance: by
-// 2^-23 as seen from the camera, of a picture kWidth pixels wide that is 2 along its wider side.
-constexpr double kShift = 0x1p-23 * kWidth;  // [pixel]
+// 2^-23 as seen from the camera, of a picture kWayWidth pixels wide that is 2 along its wider side.
+constexpr double kShift = 0x1p-23 * kWayWidth;  // [pixel]
 
 // A map's level has at most two texels a pixel, which differ by at most 1. A vertex's attributes
 // differ less.
@@ -123,7 +123,7 @@ constexpr double kMost = 0.99;
 constexpr double kSnapped = 4.0 / 512.0;
 
 RenderSettings way_settings() {
-    RenderSettings settings = small_settings(kWidth, kHeight, 200);
+    RenderSettings settings = small_settings(kWayWidth, kWayHeight, 200);
     settings.shading = Shading::pbr;
     settings.gbuffer = GBUFFER_FULL;
     settings.ambient = 0.1f;

@@ -12,7 +12,7 @@
 namespace kilolux {
 namespace {
 
-bool holds(const Box& box, const glm::dvec3& p) {
+bool lies_within(const Box& box, const glm::dvec3& p) {
     return glm::all(glm::greaterThan(p, box.min)) && glm::all(glm::lessThan(p, box.max));
 }
 
@@ -41,7 +41,7 @@ TEST(Framing, AnObjectIsSeenWholeFromOutsideInEveryShapeOfPicture) {
             const glm::dvec2 most = extent(camera, bounds(scene), aspect);
             EXPECT_LE(std::max(most.x, most.y), 1.0) << size.x << " aspect " << aspect;
             EXPECT_GE(std::max(most.x, most.y), 0.9) << size.x << " aspect " << aspect;
-            EXPECT_FALSE(holds(bounds(scene), camera.position));
+            EXPECT_FALSE(lies_within(bounds(scene), camera.position));
         }
     }
 }
@@ -49,7 +49,7 @@ TEST(Framing, AnObjectIsSeenWholeFromOutsideInEveryShapeOfPicture) {
 TEST(Framing, AnInteriorIsSeenFromInsideAlongItsLongestView) {
     const Scene scene = box_scene({4.0, 5.0, 30.0}, true);
     const Camera camera = framing_camera(scene, 1.5);
-    EXPECT_TRUE(holds(bounds(scene), camera.position));
+    EXPECT_TRUE(lies_within(bounds(scene), camera.position));
     EXPECT_GT(std::abs(camera.world_from_view[2].z), 0.98);
     EXPECT_GT(std::abs(camera.position.z), 8.0) << "near one end";
     EXPECT_LT(camera.position.z * camera.world_from_view[2].z, 1e9);

@@ -39,7 +39,7 @@ std::uint64_t fingerprint(const std::vector<SceneLight>& lights) {
     return hash;
 }
 
-double luminance(const glm::dvec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
+double rec709_luminance(const glm::dvec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 
 // Mean over `points` of the number of lights that reach a point of the box.
 double coverage(const std::vector<SceneLight>& lights, const Box& box, int points) {
@@ -57,7 +57,7 @@ double coverage(const std::vector<SceneLight>& lights, const Box& box, int point
     return sum / points;
 }
 
-// Mean luminance of a surface of albedo 0.5, over points of the box and random normals. Each
+// Mean rec709_luminance of a surface of albedo 0.5, over points of the box and random normals. Each
 // point's radiance is capped at 4: a surface a hand's breadth from a lamp is overexposed anyway,
 // and without a cap the mean of a d^-2 law needs very many points.
 double exposure(const std::vector<SceneLight>& lights, const Box& box, int points) {
@@ -76,8 +76,8 @@ double exposure(const std::vector<SceneLight>& lights, const Box& box, int point
             const double d = std::max(glm::length(to_light), 0.01);
             const double window = std::clamp(1.0 - std::pow(d / light.range, 4.0), 0.0, 1.0);
             const double cosine = std::max(glm::dot(n, to_light) / d, 0.0);
-            radiance +=
-                luminance(glm::dvec3(light.intensity)) * window / (d * d) * cosine * 0.5 / M_PI;
+            radiance += rec709_luminance(glm::dvec3(light.intensity)) * window / (d * d) * cosine *
+                        0.5 / M_PI;
         }
         sum += std::min(radiance, 4.0);
     }
@@ -207,8 +207,8 @@ TEST(LightGenerator, ColoursAreSaturatedAndOfLikeLuminance) {
     for (const SceneLight& light : generate_lights(options, hall(), 0.0)) {
         const glm::vec3 c = light.intensity;
         EXPECT_LE(std::min({c.x, c.y, c.z}), 0.41f);
-        EXPECT_GE(luminance(glm::dvec3(c)), 0.449);
-        sum += luminance(glm::dvec3(c));
+        EXPECT_GE(rec709_luminance(glm::dvec3(c)), 0.449);
+        sum += rec709_luminance(glm::dvec3(c));
     }
     EXPECT_NEAR(sum / 20000, 0.633, 0.005);
 }

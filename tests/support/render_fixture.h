@@ -7,10 +7,12 @@
 #include <cstdlib>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host/render/renderer.h"
 #include "host/scene/generated/scenes.h"
+#include "tests/support/messages.h"
 
 namespace kilolux {
 
@@ -39,6 +41,25 @@ inline Camera first_camera(const Scene& scene) {
 
 inline Frame render_once(const Scene& scene, const RenderSettings& settings, double time = 0.0) {
     return Renderer(scene, settings).render(first_camera(scene), time);
+}
+
+inline bool has_stage(const Frame& frame, std::string_view name) {
+    return std::ranges::any_of(frame.stats.stages,
+                               [&](const StageTime& stage) { return stage.name == name; });
+}
+
+/// Luminance (Rec. 709) of pixel `i` of three channels a pixel.
+inline float luminance_of(const std::vector<float>& radiance, std::size_t i) {
+    return 0.2126f * radiance[3 * i] + 0.7152f * radiance[3 * i + 1] +
+           0.0722f * radiance[3 * i + 2];
+}
+
+/// A renderer of these settings is refused with a message that holds `reason`.
+inline void expect_refused(const Scene& scene, const RenderSettings& settings,
+                           const std::string& reason) {
+    const std::string message =
+        message_of<UsageError>([&] { const Renderer renderer(scene, settings); });
+    EXPECT_TRUE(contains(message, reason)) << message;
 }
 
 /// The grid scene with a directional light and a dozen spots.

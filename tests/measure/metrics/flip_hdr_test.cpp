@@ -10,7 +10,7 @@
 namespace kilolux {
 namespace {
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 RgbImage grays(int width, int height, const std::vector<double>& values) {
     RgbImage out = make_rgb_image(width, height);
@@ -59,7 +59,7 @@ TEST(FlipHdr, BlackPicturesHaveExposures) {
     const FlipExposures black = flip_exposures(grays(3, 1, {0.0}));
     EXPECT_EQ(black.start, 0.0);
     EXPECT_EQ(black.stop, 0.0);
-    const FlipExposures odd = flip_exposures(grays(4, 1, {1.0, kInf, 4.0, 2.0}));
+    const FlipExposures odd = flip_exposures(grays(4, 1, {1.0, kInfinite, 4.0, 2.0}));
     EXPECT_NEAR(odd.stop - odd.start, 1.0, 1e-12) << "infinite pixels are left out";
 }
 
@@ -135,7 +135,7 @@ TEST(FlipHdr, SeesWhatOneExposureHides) {
 TEST(FlipHdr, ExtremeAndBadValues) {
     RgbImage a = bright_noise(20, 20, 7);
     const RgbImage b = a;
-    a.rgb[0] = kInf;
+    a.rgb[0] = kInfinite;
     a.rgb[30] = 1e300;
     a.rgb[60] = -5.0;
     a.rgb[90] = std::numeric_limits<double>::quiet_NaN();

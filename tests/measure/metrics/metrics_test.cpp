@@ -12,7 +12,7 @@
 namespace kilolux {
 namespace {
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 RgbImage image(int width, int height, std::vector<double> rgb) {
@@ -26,7 +26,7 @@ TEST(HdrMetrics, EqualPicturesHaveNoError) {
     EXPECT_EQ(m.relative.max, 0.0);
     EXPECT_EQ(m.rmse, 0.0);
     EXPECT_EQ(m.rel_mse, 0.0);
-    EXPECT_EQ(m.psnr_db, kInf);
+    EXPECT_EQ(m.psnr_db, kInfinity);
     EXPECT_EQ(m.different_pixels, 0u);
     EXPECT_EQ(m.pixels, 2u);
 }
@@ -55,21 +55,21 @@ TEST(HdrMetrics, ScaleBoundsTheRelativeError) {
     const RgbImage r = image(1, 1, {0.001, 1, 0});
     const RgbImage x = image(1, 1, {0.002, 1, 0.5});
     const RgbImage e = image(1, 1, {10, 10, 10});
-    EXPECT_EQ(compare_hdr(x, r).relative.max, kInf) << "0.5 against 0 without a scale";
+    EXPECT_EQ(compare_hdr(x, r).relative.max, kInfinity) << "0.5 against 0 without a scale";
     EXPECT_DOUBLE_EQ(compare_hdr(x, r, {.scale = &e}).relative.max, 0.05);
 }
 
 TEST(HdrMetrics, NothingPassesOverNanAndInfinity) {
-    for (const double bad : {kNan, kInf, -kInf}) {
+    for (const double bad : {kNan, kInfinity, -kInfinity}) {
         const RgbImage r = image(3, 1, {1, 1, 1, 1, 1, 1, 1, 1, 1});
         const RgbImage x = image(3, 1, {1, 1, 1, 1, bad, 1, 1, 1, 1});
         const HdrMetrics m = compare_hdr(x, r);
-        EXPECT_EQ(m.absolute.max, kInf) << bad;
+        EXPECT_EQ(m.absolute.max, kInfinity) << bad;
         EXPECT_EQ(m.absolute.x, 1) << bad;
-        EXPECT_EQ(m.absolute.mean, kInf) << bad;
-        EXPECT_EQ(m.rmse, kInf) << bad;
-        EXPECT_EQ(m.rel_mse, kInf) << bad;
-        EXPECT_EQ(m.psnr_db, -kInf) << bad;
+        EXPECT_EQ(m.absolute.mean, kInfinity) << bad;
+        EXPECT_EQ(m.rmse, kInfinity) << bad;
+        EXPECT_EQ(m.rel_mse, kInfinity) << bad;
+        EXPECT_EQ(m.psnr_db, -kInfinity) << bad;
         EXPECT_EQ(m.nan_pixels, std::isnan(bad) ? 1u : 0u);
         EXPECT_EQ(m.infinite_pixels, std::isinf(bad) ? 1u : 0u);
         EXPECT_EQ(m.negative_pixels, bad < 0 ? 1u : 0u);
@@ -77,7 +77,7 @@ TEST(HdrMetrics, NothingPassesOverNanAndInfinity) {
 }
 
 TEST(HdrMetrics, AnInfiniteReferenceHidesNoOtherError) {
-    for (const double bad : {kNan, kInf}) {
+    for (const double bad : {kNan, kInfinity}) {
         const RgbImage r = image(2, 1, {1, 1, 1, 1, 1, bad});
         RgbImage x = r;
         EXPECT_EQ(compare_hdr(x, r).rel_mse, 0.0) << bad;
@@ -136,7 +136,7 @@ TEST(ErrorSize, KeepsTheShapeWithinWidthAndEvaluations) {
     EXPECT_EQ(error_size({1920, 1080}, 10), (Size{320, 180}));
     EXPECT_EQ(error_size({64, 36}, 10), (Size{64, 36}));
     EXPECT_EQ(error_size({1920, 1080}, 1000000), (Size{23, 12}));
-    EXPECT_EQ(error_size({1920, 1080}, 1000000, {.width = 960, .evaluations = kInf}),
+    EXPECT_EQ(error_size({1920, 1080}, 1000000, {.width = 960, .evaluations = kInfinity}),
               (Size{960, 540}));
     EXPECT_EQ(error_size({8192, 1}, 0), (Size{320, 1}));
 }

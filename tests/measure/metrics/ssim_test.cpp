@@ -12,7 +12,7 @@ namespace {
 
 using Codes = std::vector<std::uint8_t>;
 
-Codes noise(int width, int height, unsigned seed) {
+Codes noisy_codes(int width, int height, unsigned seed) {
     std::mt19937 random(seed);
     Codes out(static_cast<std::size_t>(4 * width * height));
     for (auto& c : out) c = static_cast<std::uint8_t>(random() >> 24);
@@ -61,7 +61,7 @@ double direct_ssim(const Codes& a, const Codes& b, int width, int height) {
 }
 
 TEST(Ssim, MatchesTheFormulaWrittenOut) {
-    const Codes a = noise(23, 17, 1);
+    const Codes a = noisy_codes(23, 17, 1);
     Codes b = a;
     for (std::size_t i = 0; i < b.size(); i += 7) b[i] = static_cast<std::uint8_t>(b[i] / 2);
     const auto value = ssim({23, 17, a}, {23, 17, b});
@@ -71,7 +71,7 @@ TEST(Ssim, MatchesTheFormulaWrittenOut) {
 }
 
 TEST(Ssim, EqualPicturesGiveOne) {
-    const Codes a = noise(30, 20, 2);
+    const Codes a = noisy_codes(30, 20, 2);
     EXPECT_NEAR(ssim({30, 20, a}, {30, 20, a}).value(), 1.0, 1e-12);
 }
 
@@ -83,7 +83,7 @@ TEST(Ssim, FlatPicturesDifferByLuminanceOnly) {
 }
 
 TEST(Ssim, IsSymmetricAndFallsWithNoise) {
-    const Codes a = noise(40, 40, 3);
+    const Codes a = noisy_codes(40, 40, 3);
     double last = 1.0;
     for (const int strength : {8, 32, 128}) {
         Codes b = a;

@@ -16,7 +16,7 @@
 namespace kilolux {
 namespace {
 
-constexpr CacheKind kKind = {"limits", 4};
+constexpr CacheKind kLimitsKind = {"limits", 4};
 
 class DeviceLimitsTest : public CacheSandbox {
  protected:
@@ -62,10 +62,10 @@ TEST_F(DeviceLimitsTest, AreMeasuredOnceAndKept) {
     const DeviceLimits first = cached_device_limits(gpu_);
     EXPECT_EQ(cached_device_limits(gpu_), first);
     // A changed entry is read back unchanged: limits are not measured again.
-    auto values = read_device_cache(gpu_.info, kKind);
+    auto values = read_device_cache(gpu_.info, kLimitsKind);
     ASSERT_TRUE(values);
     (*values)["fma_flops"] = 12345.0;
-    write_device_cache(gpu_.info, kKind, *values);
+    write_device_cache(gpu_.info, kLimitsKind, *values);
     EXPECT_EQ(cached_device_limits(gpu_).fma_flops, 12345.0);
     const DeviceLimits again = cached_device_limits(gpu_, true);
     EXPECT_NE(again.fma_flops, 12345.0);
@@ -74,22 +74,22 @@ TEST_F(DeviceLimitsTest, AreMeasuredOnceAndKept) {
 
 TEST_F(DeviceLimitsTest, AreMeasuredAgainWhenAnEntryCannotBeTrue) {
     auto values = CacheValues{{"lanes", describe(gpu_.device).vector_width}, {"fma_flops", 1.0}};
-    write_device_cache(gpu_.info, kKind, values);  // incomplete
+    write_device_cache(gpu_.info, kLimitsKind, values);  // incomplete
     expect_plausible(cached_device_limits(gpu_), gpu_.info.compute_units);
-    values = *read_device_cache(gpu_.info, kKind);
+    values = *read_device_cache(gpu_.info, kLimitsKind);
     values["read_bytes_per_s"] = 0.0;  // would make every limit infinite
-    write_device_cache(gpu_.info, kKind, values);
+    write_device_cache(gpu_.info, kLimitsKind, values);
     expect_plausible(cached_device_limits(gpu_), gpu_.info.compute_units);
-    std::ofstream(device_cache_file(gpu_.info, kKind)) << "damaged";
+    std::ofstream(device_cache_file(gpu_.info, kLimitsKind)) << "damaged";
     expect_plausible(cached_device_limits(gpu_), gpu_.info.compute_units);
 }
 
 TEST_F(DeviceLimitsTest, RiseWhileABenchmarkWatchesAndNeverFall) {
     const DeviceLimits measured = cached_device_limits(gpu_);
-    auto values = *read_device_cache(gpu_.info, kKind);
+    auto values = *read_device_cache(gpu_.info, kLimitsKind);
     values["sqrt_per_s"] = 1.0;         // as on a busy machine
     values["divisions_per_s"] = 1e300;  // no measurement reaches that
-    write_device_cache(gpu_.info, kKind, values);
+    write_device_cache(gpu_.info, kLimitsKind, values);
     LimitWatch watch(gpu_.device);
     EXPECT_GT(watch.limits().sqrt_per_s, 1e-3 * measured.sqrt_per_s);
     EXPECT_EQ(watch.limits().divisions_per_s, 1e300);

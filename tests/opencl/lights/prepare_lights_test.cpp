@@ -112,7 +112,7 @@ TEST(PrepareLights, ViewSpaceAndExtentsAgreeWithDouble) {
 // Spheres are wider by 1e-6 of each coordinate: rounding on the way to tiles loses no light. Here
 // they end that near to a slice, far out along each axis.
 TEST(PrepareLights, ExtentsAreWiderBySharesOfEveryCoordinate) {
-    const View view = make_view({});
+    const View view = make_view(ViewShape{});
     const ClusterGrid grid =
         make_cluster_grid({16, 9, 4, 0.5f, 50.0f, 0.0f}, view.width, view.height);
     const double depth = depth_of_slice(grid, 17);
@@ -136,7 +136,7 @@ TEST(PrepareLights, ExtentsAreWiderBySharesOfEveryCoordinate) {
 }
 
 TEST(PrepareLights, AnyCountLaneWidthAndGroupGivesTheSame) {
-    const View view = make_view({});
+    const View view = make_view(ViewShape{});
     const ClusterGrid grid = make_cluster_grid({}, view.width, view.height);
     LightMix mix;
     mix.count = 257;
@@ -161,7 +161,7 @@ TEST(PrepareLights, AnyCountLaneWidthAndGroupGivesTheSame) {
 }
 
 TEST(PrepareLights, LightsOutsideTheImageTouchNothing) {
-    const View view = make_view({});
+    const View view = make_view(ViewShape{});
     const ClusterGrid grid =
         make_cluster_grid({16, 9, 4, 0.5f, 50.0f, 0.0f}, view.width, view.height);
     const auto at = [&](glm::dvec3 p, double range) {
@@ -199,7 +199,7 @@ TEST(PrepareLights, SmallLightsTouchFewTiles) {
 }
 
 TEST(PrepareLights, DirectionalLightsAreRotated) {
-    const View view = make_view({});
+    const View view = make_view(ViewShape{});
     const std::vector<DirectionalLight> sun = {{{0.48f, 0.6f, 0.64f, 0.0f}, {1, 2, 3, 0}},
                                                {{0, 0, 1, 0}, {4, 5, 6, 0}}};
     const Prepared found =

@@ -213,7 +213,7 @@ TEST(BinPixels, BackgroundHasNoClusters) {
 
 TEST(BinPixels, LacksRoomOnceThenGrows) {
     const Gpu gpu = test_gpu();
-    const View view = make_view({});
+    const View view = make_view(ViewShape{});
     const GBuffer gbuffer =
         upload_gbuffer(gpu, make_synthetic(view, {}, noise_depth(0.3, 80.0, 0.0, 5)));
     const ClusterGrid grid = make_cluster_grid({16, 9, 64, 0.5f, 50.0f, 0.0f}, 64, 48);

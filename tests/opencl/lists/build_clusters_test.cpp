@@ -32,7 +32,7 @@ Boxes build(const View& view, const ClusterGrid& grid) {
             download<Interval>(gpu, boxes.depths, grid.slices)};
 }
 
-std::vector<ViewShape> shapes() {
+std::vector<ViewShape> clustered_shapes() {
     std::vector<ViewShape> all(9);
     all[0] = {640, 480};
     all[1] = {1, 1};
@@ -109,7 +109,7 @@ void expect_tight(const View& view, const ClusterGrid& grid, const Boxes& boxes)
 }
 
 TEST(BuildClusters, BoxesHoldEveryPixelOfTheirTileAndSlice) {
-    for (const ViewShape& shape : shapes()) {
+    for (const ViewShape& shape : clustered_shapes()) {
         for (const GridRequest& request :
              {GridRequest{16, 9, 4, 0.1f, 100.0f, 0.0f}, GridRequest{3, 2, 1, 1e-3f, 1e4f, 0.0f},
               GridRequest{64, 64, 16, 0.7f, 9.0f, 0.0f}}) {
@@ -142,7 +142,7 @@ TEST(BuildClusters, NeighboursShareFacesAndTheEndsAreOpen) {
 }
 
 TEST(BuildClusters, PositionPadWidensEveryFace) {
-    const View view = make_view({});
+    const View view = make_view(ViewShape{});
     GridRequest request{4, 4, 4, 0.3f, 30.0f, 0.0f};
     const ClusterGrid grid = make_cluster_grid(request, 64, 48);
     request.position_pad = 0.25f;

@@ -40,7 +40,7 @@ struct Counted {
 
 Counted count_lights(int lanes, std::uint32_t light_count) {
     const Gpu gpu = test_gpu(lanes);
-    const View view = make_view({49, 35});
+    const View view = make_view(ViewShape{49, 35});
     Counted out;
     out.grid = make_cluster_grid({16, 9, 4, 0.5f, 50.0f, 0.0f}, view.width, view.height);
     LightMix mix;

@@ -185,7 +185,7 @@ std::string lists_of(const Gpu& gpu, const CullCase& c, const Tuning& tuning) {
     return fingerprint(download_lists(gpu, c.features, device));
 }
 
-std::vector<Tuning> tunings(const DeviceInfo& info) {
+std::vector<Tuning> cull_tunings(const DeviceInfo& info) {
     std::vector<Tuning> all(6, default_tuning(info));
     all[1].cull_chunks = 1;
     all[2].cull_chunks = 7;
@@ -212,7 +212,7 @@ TEST(CullLights, ListsAreTheSameForEveryTuningLaneWidthAndRun) {
             << "run " << run;
     }
     int index = 0;
-    for (const Tuning& tuning : tunings(test_gpu().info)) {
+    for (const Tuning& tuning : cull_tunings(test_gpu().info)) {
         ASSERT_TRUE(lists_of(test_gpu(), c, tuning) == expected) << "tuning " << index;
         ++index;
     }
@@ -226,7 +226,7 @@ void expect_all_listed(uint count) {
     const Gpu gpu = test_gpu();
     KernelFeatures features;
     features.light_index_bits = count <= 65536 ? 16 : 32;
-    const View view = make_view({1, 1});
+    const View view = make_view(ViewShape{1, 1});
     const ClusterGrid grid = make_cluster_grid({}, 1, 1);
     const GBuffer gbuffer =
         upload_gbuffer(gpu, make_synthetic(view, features, noise_depth(2.0, 3.0, 0, 1)));
@@ -250,7 +250,7 @@ TEST(CullLights, HoldsAnyNumberOfLightsInOneCluster) {
 
 TEST(CullLights, LacksRoomOnceThenGrows) {
     const Gpu gpu = test_gpu();
-    const View view = make_view({});
+    const View view = make_view(ViewShape{});
     const ClusterGrid grid = make_cluster_grid({16, 9, 8, 0.1f, 100.0f, 0.0f}, 64, 48);
     const std::vector<Light> lights(3000, point_light({}, 1e6));
     PrepareLights prepare(gpu, default_tuning(gpu.info));

@@ -12,14 +12,14 @@
 namespace kilolux {
 namespace {
 
-const GridRequest kRequest{4, 4, 1, 1.0f, 50.0f, 0.0f};
+const GridRequest kListedRequest{4, 4, 1, 1.0f, 50.0f, 0.0f};
 constexpr float kDepth = 9.0f;
 
 // 64 x 16 pixels at one depth, of a picture of 64 x 64 from row 32 on.
 struct Band {
     Gpu gpu = test_gpu();
     View view = band_view();
-    ClusterGrid grid = make_cluster_grid(kRequest, 64, 64);
+    ClusterGrid grid = make_cluster_grid(kListedRequest, 64, 64);
     GBuffer gbuffer =
         upload_gbuffer(gpu, make_synthetic(view, {}, slanted_depth(kDepth, kDepth, 64)));
     LightInput lights = upload_lights(gpu, some_lights());
@@ -27,7 +27,7 @@ struct Band {
     StageTimer timer;
 
     static View band_view() {
-        View view = make_view({64, 64});
+        View view = make_view(ViewShape{64, 64});
         view.first_row = 32;
         view.height = 16;
         return view;
@@ -41,7 +41,7 @@ struct Band {
 };
 
 template <typename Run>
-std::string error_of(const Run& run) {
+std::string run_error(const Run& run) {
     try {
         run();
     } catch (const Error& error) {
@@ -54,7 +54,7 @@ std::string error_of(const Run& run) {
 template <typename Run>
 void expect_lights_are_checked(const Band& band, const Run& run) {
     const auto message = [&](const LightInput& input) {
-        return error_of([&] { run(input, band.gbuffer); });
+        return run_error([&] { run(input, band.gbuffer); });
     };
     LightInput wrong = band.lights;
     wrong.count = 30000000;
@@ -74,20 +74,20 @@ template <typename Run>
 void expect_planes_are_checked(const Band& band, const Run& run) {
     GBuffer wrong = band.gbuffer;
     wrong.bytes = cl::Buffer(band.gpu.context, CL_MEM_READ_WRITE, std::size_t{1000});
-    EXPECT_EQ(error_of([&] { run(band.lights, wrong); }),
+    EXPECT_EQ(run_error([&] { run(band.lights, wrong); }),
               "lighting: G-buffer: a buffer of 1000 bytes; planes of 64 x 16 take 12288");
     wrong = band.gbuffer;
     wrong.layout.offset_bytes[PLANE_DEPTH] = 1u << 30;
-    EXPECT_EQ(error_of([&] { run(band.lights, wrong); }),
+    EXPECT_EQ(run_error([&] { run(band.lights, wrong); }),
               "lighting: G-buffer: a buffer of 12288 bytes; planes of 64 x 16 take 1073745920");
     wrong = band.gbuffer;
     wrong.view.first_row = 4000000000u;
-    EXPECT_EQ(error_of([&] { run(band.lights, wrong); }),
+    EXPECT_EQ(run_error([&] { run(band.lights, wrong); }),
               "lighting: cluster grid: 4 x 4 tiles of 16 x 16 pixels in 6 slices, 96 clusters; it "
               "does not hold a picture of 64 x 4000000016");
     wrong = band.gbuffer;
     wrong.view.stride = 65;
-    EXPECT_EQ(error_of([&] { run(band.lights, wrong); }),
+    EXPECT_EQ(run_error([&] { run(band.lights, wrong); }),
               "lighting: G-buffer: width 64, stride 65; a stride is the width rounded up to 16");
 }
 
@@ -127,11 +127,11 @@ TEST(LightLists, RefuseGridsThatDoNotHoldThePicture) {
     ClusterGrid miscounted = band.grid;
     miscounted.cluster_count = 5;
     for (const ClusterGrid& grid :
-         {make_cluster_grid(kRequest, 64, 16), ClusterGrid{}, miscounted}) {
+         {make_cluster_grid(kListedRequest, 64, 16), ClusterGrid{}, miscounted}) {
         for (const std::string& message :
-             {error_of([&] { band.stage.run(band.lights, band.gbuffer, grid, band.timer); }),
-              error_of([&] { coarse.run(band.lights, band.view, grid, band.timer); }),
-              error_of([&] {
+             {run_error([&] { band.stage.run(band.lights, band.gbuffer, grid, band.timer); }),
+              run_error([&] { coarse.run(band.lights, band.view, grid, band.timer); }),
+              run_error([&] {
                   all.enqueue({band.gbuffer, band.lights, grid}, band.timer);
               })}) {
             EXPECT_EQ(message.find("lighting: cluster grid: "), 0u) << message;
@@ -148,8 +148,8 @@ TEST(DeferredLighting, RefusesShadowsWithoutCasters) {
     const LightingInput input{band.gbuffer, band.lights, band.grid};
     const std::string expected =
         "lighting: shadow nodes: a buffer of 0 bytes; a root and its boxes take 448";
-    EXPECT_EQ(error_of([&] { lists.light(input, band.timer); }), expected);
-    EXPECT_EQ(error_of([&] { all.enqueue(input, band.timer); }), expected);
+    EXPECT_EQ(run_error([&] { lists.light(input, band.timer); }), expected);
+    EXPECT_EQ(run_error([&] { all.enqueue(input, band.timer); }), expected);
 }
 
 TEST(LightLists, APixelOfABandHasTheListsOfItsPlaceInThePicture) {

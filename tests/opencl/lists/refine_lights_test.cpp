@@ -13,7 +13,7 @@
 namespace kilolux {
 namespace {
 
-const GridRequest kRequest{2, 2, 1, 0.5f, 50.0f, 0.0f};
+const GridRequest kRefinedRequest{2, 2, 1, 0.5f, 50.0f, 0.0f};
 
 double box_distance(const ActiveCluster& c, float4 p) {
     const auto axis = [](double v, double lo, double hi) {
@@ -50,8 +50,8 @@ void expect_list(const ActiveCluster& box, std::span<const uint> found,
 }
 
 void expect_refined(const Gpu& gpu, const Tuning& tuning, std::uint32_t light_count) {
-    const View view = make_view({97, 65});
-    const ClusterGrid grid = make_cluster_grid(kRequest, view.width, view.height);
+    const View view = make_view(ViewShape{97, 65});
+    const ClusterGrid grid = make_cluster_grid(kRefinedRequest, view.width, view.height);
     LightMix mix;
     mix.count = light_count;
     const std::vector<Light> lights = random_lights(view, mix);
@@ -88,7 +88,7 @@ TEST(RefineLights, AgreesWithDoubleForAnyCountAndGroup) {
 TEST(RefineLights, LacksRoomOnceThenGrows) {
     const Gpu gpu = test_gpu();
     const Tuning tuning = default_tuning(gpu.info);
-    const View view = make_view({});
+    const View view = make_view(ViewShape{});
     const ClusterGrid grid =
         make_cluster_grid({1, 1, 1, 0.5f, 0.5f, 0.0f}, view.width, view.height);
     // 12 tiles of one cluster each: more entries than the first room of 2^20.
@@ -123,7 +123,7 @@ TEST(RefineLights, SpotsThatShineAwayAreLeftOut) {
     ViewShape shape;
     shape.rotated = false;
     const View view = make_view(shape);
-    const ClusterGrid grid = make_cluster_grid(kRequest, view.width, view.height);
+    const ClusterGrid grid = make_cluster_grid(kRefinedRequest, view.width, view.height);
     KernelFeatures features;
     features.spot_lights = true;
     const GBuffer gbuffer =
@@ -149,7 +149,7 @@ TEST(RefineLights, WideSpotsReachWhatLiesBehindThem) {
     ViewShape shape;
     shape.rotated = false;
     const View view = make_view(shape);
-    const ClusterGrid grid = make_cluster_grid(kRequest, view.width, view.height);
+    const ClusterGrid grid = make_cluster_grid(kRefinedRequest, view.width, view.height);
     KernelFeatures features;
     features.spot_lights = true;
     const GBuffer gbuffer =
@@ -177,7 +177,7 @@ TEST(RefineLights, WideSpotsReachWhatLiesBehindThem) {
 // Two active clusters of one tile whose coarse lists together have 2^32 entries and some.
 TEST(RefineLights, MoreTestsInATileThan32BitsCountAreAnError) {
     const Gpu gpu = test_gpu();
-    const View view = make_view({16, 16});
+    const View view = make_view(ViewShape{16, 16});
     ClusterGrid grid = make_cluster_grid({1, 1, 1, 1.0f, 3.0f, 0.0f, 1}, 16, 16);
     ASSERT_EQ(grid.cluster_count, 2u);
     std::vector<ActiveCluster> active(2);

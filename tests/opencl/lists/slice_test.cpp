@@ -17,8 +17,9 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kHeaders[] = {"kernels/device/lanes.h", "kernels/shared/cluster_grid.h"};
-constexpr std::string_view kProbe = R"(
+constexpr std::string_view kSliceHeaders[] = {"kernels/device/lanes.h",
+                                              "kernels/shared/cluster_grid.h"};
+constexpr std::string_view kSliceProbe = R"(
 kernel void probe(ClusterGrid grid, global const float* z, global uint* out) {
     size_t first = get_global_id(0) * VW;
     lane_store(slice_of_depth(grid, lane_load(z + first)), out + first);
@@ -37,8 +38,8 @@ std::vector<uint> device_slices(int lanes, const ClusterGrid& grid, std::vector<
     const std::size_t count = z.size();
     z.resize(round_up(count, 16), 1.0f);
     const Gpu gpu = test_gpu(lanes);
-    auto slices =
-        run_probe<uint>(gpu, {kHeaders, kProbe}, z.size() / lanes_of(gpu), z.size(), grid, z);
+    auto slices = run_probe<uint>(gpu, {kSliceHeaders, kSliceProbe}, z.size() / lanes_of(gpu),
+                                  z.size(), grid, z);
     slices.resize(count);
     return slices;
 }

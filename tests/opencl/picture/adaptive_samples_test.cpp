@@ -28,8 +28,8 @@ View view_with(uint width, uint height) {
 
 std::size_t size_of(const View& view) { return std::size_t{view.stride} * view.height; }
 
-// Light of a picture's pixel, the same in all channels.
-using Light = std::function<float(uint x, uint y)>;
+// PixelLight of a picture's pixel, the same in all channels.
+using PixelLight = std::function<float(uint x, uint y)>;
 
 // Adds pictures to the stage and keeps its results.
 struct Feed {
@@ -38,7 +38,7 @@ struct Feed {
     AdaptiveSamples samples{gpu, default_tuning(gpu.info)};
     StageTimer timer{};
 
-    void add(uint half, const Light& light) {
+    void add(uint half, const PixelLight& light) {
         std::vector<float> planes(3 * size_of(view));
         for (uint y = 0; y < view.height; ++y) {
             for (uint x = 0; x < view.width; ++x) {
@@ -51,7 +51,7 @@ struct Feed {
     }
 
     // Rounds of four pictures of each half, until all tiles are done or there are `most`.
-    void run(float error, int most, const Light& light) {
+    void run(float error, int most, const PixelLight& light) {
         for (int taken = 0; taken < most; taken += 4) {
             for (uint half = 0; half < 2; ++half) {
                 for (int i = 0; i < 4; ++i) add(half, light);
@@ -71,7 +71,7 @@ struct Feed {
 TEST(AdaptiveSamples, StillLightNeedsTheLeastAndKeepsItsBits) {
     for (const int lanes : {1, 4, 16}) {
         Feed feed{test_gpu(lanes), view_with(53, 41)};
-        const Light light = [](uint x, uint y) {
+        const PixelLight light = [](uint x, uint y) {
             return 0.1f * static_cast<float>(x) / static_cast<float>(y + 1);
         };
         feed.run(1e-6f, 64, light);
@@ -102,7 +102,7 @@ TEST(AdaptiveSamples, RareLightIsRightOnAverage) {
     std::vector<float> of_tile(32 * 32);
     for (int repeat = 0; repeat < 6; ++repeat) {
         feed.samples.clear();
-        const Light light = [&](uint x, uint y) {
+        const PixelLight light = [&](uint x, uint y) {
             if (x == 0 && y == 0) {
                 for (float& value : of_tile) {
                     value = random.unit() < kRare ? static_cast<float>(1.0 / kRare) : 0.0f;

@@ -8,8 +8,9 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kHeaders[] = {"kernels/device/lanes.h", "kernels/shared/evaluate.h"};
-constexpr std::string_view kProbe = R"(
+constexpr std::string_view kEvaluateHeaders[] = {"kernels/device/lanes.h",
+                                                 "kernels/shared/evaluate.h"};
+constexpr std::string_view kEvaluateProbe = R"(
 kernel void probe(global const float* in, uint count, global const ShadeLight* lights, uint light_count,
                   global const DirectionalLight* directional, uint directional_count, float ambient,
                   uint orthographic, global float* out) {
@@ -98,8 +99,8 @@ ProbeResult probe_evaluate(const std::vector<SurfaceD>& surfaces, const Lighting
                                      .define("HAS_SPECULAR", 1)
                                      .define("HAS_SPOT_LIGHTS", 1);
     const auto found =
-        run_probe<float>(gpu, {kHeaders, kProbe, options}, count / lanes_of(gpu), 3 * count, in,
-                         static_cast<uint>(count), copy_of(lighting.lights),
+        run_probe<float>(gpu, {kEvaluateHeaders, kEvaluateProbe, options}, count / lanes_of(gpu),
+                         3 * count, in, static_cast<uint>(count), copy_of(lighting.lights),
                          static_cast<uint>(lighting.lights.size()), copy_of(lighting.directional),
                          static_cast<uint>(lighting.directional.size()),
                          static_cast<float>(lighting.ambient), lighting.orthographic ? 1u : 0u);
@@ -120,8 +121,8 @@ std::vector<float> probe_pow_of_cos2(const std::vector<float>& sin2, const std::
     std::vector<float> cos2;
     cos2.reserve(count);
     for (const float s : padded_sin2) cos2.push_back(static_cast<float>(1.0 - double{s}));
-    auto powers = run_probe<float>(gpu, {kHeaders, kPowProbe}, count / lanes_of(gpu), count, cos2,
-                                   padded_sin2, padded_n);
+    auto powers = run_probe<float>(gpu, {kEvaluateHeaders, kPowProbe}, count / lanes_of(gpu), count,
+                                   cos2, padded_sin2, padded_n);
     powers.resize(sin2.size());
     return powers;
 }

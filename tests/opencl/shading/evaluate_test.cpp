@@ -13,7 +13,7 @@ namespace {
 
 // Relative to the larger of the radiance and the sum of intensity * falloff: u = 6e-8 times the
 // dozens of operations of a term.
-constexpr double kTolerance = 1e-5;
+constexpr double kEvaluateTolerance = 1e-5;
 
 constexpr int kShadings[] = {SHADING_LAMBERT, SHADING_BLINN_PHONG, SHADING_PBR};
 
@@ -83,9 +83,9 @@ TEST(Evaluate, AgreesWithDoubleForPointSpotAndDirectionalLights) {
     for (const int shading : kShadings) {
         for (const bool orthographic : {false, true}) {
             const Lighting all{lights, sun, 0.1, orthographic, shading};
-            EXPECT_LE(worst_error(surfaces, all), kTolerance) << "shading " << shading;
+            EXPECT_LE(worst_error(surfaces, all), kEvaluateTolerance) << "shading " << shading;
             const Lighting none{{}, {}, 0.1, orthographic, shading};
-            EXPECT_LE(worst_error(surfaces, none), kTolerance)
+            EXPECT_LE(worst_error(surfaces, none), kEvaluateTolerance)
                 << "shading " << shading << ", no lights";
         }
     }
@@ -101,7 +101,7 @@ TEST(Evaluate, NormalsThatFaceAwayFromTheEyeStayAccurate) {
     const std::vector<ShadeLight> lights = {light_at({1, 2, -30}, 90, {1, 2, 3}),
                                             light_at({0, -5, -9}, 90, {1, 2, 3})};
     for (const int shading : {SHADING_LAMBERT, SHADING_PBR}) {
-        EXPECT_LE(worst_error(surfaces, {lights, {}, 0, false, shading}), kTolerance)
+        EXPECT_LE(worst_error(surfaces, {lights, {}, 0, false, shading}), kEvaluateTolerance)
             << "shading " << shading;
     }
 }
@@ -120,7 +120,7 @@ TEST(Evaluate, LightAtTheShadingPointIsFinite) {
                     light_at(s.position + direction * d, 3, {1, 1, 1})};
                 const Lighting lighting{lights, {}, 0, false, shading};
                 // I / LIGHT_D_MIN^2 is the largest irradiance.
-                EXPECT_LE(worst_error({s}, lighting), kTolerance)
+                EXPECT_LE(worst_error({s}, lighting), kEvaluateTolerance)
                     << "shading " << shading << ", d = " << d;
             }
         }
@@ -140,7 +140,7 @@ TEST(Evaluate, HugeAndTinyIntensitiesStayAccurate) {
                              50, glm::dvec3{1, 0.5, 0.25} * intensity));
             }
             for (SurfaceD& s : surfaces) s.emissive = {};
-            EXPECT_LE(worst_error(surfaces, {lights, {}, 0, false, shading}), kTolerance)
+            EXPECT_LE(worst_error(surfaces, {lights, {}, 0, false, shading}), kEvaluateTolerance)
                 << "shading " << shading << ", intensity " << intensity;
         }
     }
@@ -158,7 +158,7 @@ TEST(Evaluate, SumsAHundredThousandLightsAccurately) {
     std::vector<SurfaceD> surfaces;
     for (int i = 0; i < 8; ++i) surfaces.push_back(random_surface(random, 0.3));
     // Blocks of 64 bound the sum's own rounding by 64 u + k / 64 u; it is far less on average.
-    EXPECT_LE(worst_error(surfaces, {lights, {}, 0, false, SHADING_LAMBERT}), kTolerance);
+    EXPECT_LE(worst_error(surfaces, {lights, {}, 0, false, SHADING_LAMBERT}), kEvaluateTolerance);
 }
 
 TEST(Evaluate, GrazingLightIsAccurateAndNeverLeaksToTheBack) {
@@ -189,7 +189,7 @@ TEST(Evaluate, HugeIntensityInAMirrorStaysFinite) {
         const std::vector<ShadeLight> lights = {light_at({0, 0, 0}, 50, {1e30, 1e25, 1})};
         // Tolerates some ulp of alpha, of which the peak is the inverse square.
         const Lighting lighting{lights, {}, 0, false, shading};
-        EXPECT_LE(worst_error(surfaces, lighting), kTolerance) << "shading " << shading;
+        EXPECT_LE(worst_error(surfaces, lighting), kEvaluateTolerance) << "shading " << shading;
     }
 }
 

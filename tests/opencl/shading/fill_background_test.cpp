@@ -13,10 +13,9 @@
 namespace kilolux {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr float kFormer = 7.5f;  // of radiance, before
 // Of values in [0, 1], whose neighbours differ by up to 1: float's rounding of the texel's place.
-constexpr double kTolerance = 5e-5;
+constexpr double kBackgroundTolerance = 5e-5;
 
 struct Map {
     uint width = 64, height = 32;
@@ -30,8 +29,9 @@ struct Map {
     }
     // Bilinear towards a world direction, +X right of the middle, +Y in row 0.
     double towards(const glm::dvec3& d, std::size_t channel) const {
-        const double column = width * (std::atan2(d.x, -d.z) / (2.0 * kPi) + 0.5) - 0.5;
-        const double row = height * std::acos(d.y / glm::length(d)) / kPi - 0.5;
+        const double column =
+            width * (std::atan2(d.x, -d.z) / (2.0 * std::numbers::pi) + 0.5) - 0.5;
+        const double row = height * std::acos(d.y / glm::length(d)) / std::numbers::pi - 0.5;
         const double left = std::floor(column), top = std::floor(row);
         const int x = static_cast<int>(left), y = static_cast<int>(top);
         const double right = column - left, down = row - top;
@@ -105,7 +105,7 @@ void expect_map(const std::vector<float>& filled, const View& view, const Map& m
             const glm::dvec3 d = world_from_view(view, ray);
             for (std::size_t c = 0; c < 3; ++c) {
                 ASSERT_NEAR(double{filled[c * plane + std::size_t{y} * view.stride + x]},
-                            map.towards(d, c), kTolerance)
+                            map.towards(d, c), kBackgroundTolerance)
                     << x << "," << y << " channel " << c << " towards " << d.x << " " << d.y << " "
                     << d.z;
             }
@@ -186,7 +186,7 @@ TEST(FillBackground, SurfacesStayAndBandsAgree) {
 TEST(FillBackground, OneTexelIsOneColour) {
     const Gpu gpu = test_gpu(4);
     const Map map{1, 1, {0.25f, 3.0f, 0.0f}};
-    const View view = make_view({});
+    const View view = make_view(ViewShape{});
     const std::vector<float> filled = fill(gpu, map, view, nullptr);
     const std::size_t plane = std::size_t{view.stride} * view.height;
     for (std::size_t c = 0; c < 3; ++c) {

@@ -18,7 +18,7 @@ namespace kilolux {
 namespace {
 
 // Relative to the larger of radiance and intensity * falloff.
-constexpr double kTolerance = 1e-5;
+constexpr double kShadeTolerance = 1e-5;
 constexpr float kAmbient = 0.05f;
 
 const std::vector<DirectionalLight>& sun() {
@@ -132,7 +132,7 @@ void expect_as_double(const FrameInput& in) {
             const SurfaceD surface = surface_at(planes, x, y);
             if (!is_well_conditioned(surface, lighting.orthographic)) continue;
             ++compared;
-            ASSERT_LE(relative_error(found, reference_radiance(surface, lighting)), kTolerance)
+            ASSERT_LE(relative_error(found, reference_radiance(surface, lighting)), kShadeTolerance)
                 << "pixel " << x << ", " << y;
         }
     }
@@ -195,7 +195,7 @@ TEST(Shade, ListsGiveTheBitsOfAllLightsForZeroOneAndManyLights) {
     }
 }
 
-std::vector<Tuning> tunings(const DeviceInfo& info) {
+std::vector<Tuning> shade_tunings(const DeviceInfo& info) {
     std::vector<Tuning> all(2, default_tuning(info));
     all[0].shade_rows = 4;
     all[0].cull_chunks = 3;
@@ -226,7 +226,7 @@ TEST(Shade, EveryLaneWidthAndTuningGivesTheSameBitsAndLists) {
         EXPECT_TRUE(frame.lists == expected.lists) << lanes << " lanes";
     }
     int index = 0;
-    for (const Tuning& tuning : tunings(test_gpu().info)) {
+    for (const Tuning& tuning : shade_tunings(test_gpu().info)) {
         const Frame frame = shade_frame(test_gpu(), in, tuning);
         EXPECT_TRUE(same_bits(frame.listed, expected.listed)) << "tuning " << index;
         EXPECT_TRUE(same_bits(frame.all, expected.listed)) << "tuning " << index << ", all lights";

@@ -10,12 +10,11 @@
 namespace kilolux {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kNearest = 0.01;     // [m] light sources have a size
 constexpr double kSmoothest = 0.045;  // perceptual roughness
 constexpr double kSmallestNdotV = 1e-4;
 
-glm::dvec3 vec(float4 v) { return {v.x, v.y, v.z}; }
+glm::dvec3 dvec3_of(float4 v) { return {v.x, v.y, v.z}; }
 
 double clamp01(double x) { return std::clamp(x, 0.0, 1.0); }
 
@@ -32,7 +31,7 @@ glm::dvec3 gltf_brdf(const SurfaceD& s, glm::dvec3 n, glm::dvec3 v, glm::dvec3 l
     const double nl = std::max(dot(n, l), 0.0);
     const double nv = std::max(dot(n, v), kSmallestNdotV);
     const double t = nh * nh * (a2 - 1) + 1;
-    const double distribution = a2 / (kPi * t * t);
+    const double distribution = a2 / (std::numbers::pi * t * t);
     const double visibility =
         0.5 / (nl * std::sqrt(nv * nv * (1 - a2) + a2) + nv * std::sqrt(nl * nl * (1 - a2) + a2));
     const double schlick = std::pow(std::max(1 - dot(v, h), 0.0), 5);
@@ -46,7 +45,7 @@ glm::dvec3 gltf_brdf(const SurfaceD& s, glm::dvec3 n, glm::dvec3 v, glm::dvec3 l
         const double f0 = specular + (albedo - specular) * s.metallic;
         const double f = f0 + (f90 - f0) * schlick;
         const double kept = (1 - (most + (albedo - most) * s.metallic)) * to_diffuse;
-        return kept * albedo * (1 - s.metallic) / kPi + f * distribution * visibility;
+        return kept * albedo * (1 - s.metallic) / std::numbers::pi + f * distribution * visibility;
     };
     return {channel(s.albedo.x, s.specular.x), channel(s.albedo.y, s.specular.y),
             channel(s.albedo.z, s.specular.z)};
@@ -55,10 +54,10 @@ glm::dvec3 gltf_brdf(const SurfaceD& s, glm::dvec3 n, glm::dvec3 v, glm::dvec3 l
 glm::dvec3 blinn_phong_brdf(const SurfaceD& s, glm::dvec3 n, glm::dvec3 v, glm::dvec3 l) {
     const double exponent = 2 / std::pow(alpha_of(s.roughness), 2) - 2;
     const double nh = std::max(dot(n, glm::normalize(l + v)), 0.0);
-    const double lobe = (exponent + 2) / (8 * kPi) * std::pow(nh, exponent);
+    const double lobe = (exponent + 2) / (8 * std::numbers::pi) * std::pow(nh, exponent);
     const auto channel = [&](double albedo, double specular) {
         const double f0 = specular + (albedo - specular) * s.metallic;
-        return albedo * (1 - s.metallic) / kPi + f0 * lobe;
+        return albedo * (1 - s.metallic) / std::numbers::pi + f0 * lobe;
     };
     return {channel(s.albedo.x, s.specular.x), channel(s.albedo.y, s.specular.y),
             channel(s.albedo.z, s.specular.z)};
@@ -67,11 +66,11 @@ glm::dvec3 blinn_phong_brdf(const SurfaceD& s, glm::dvec3 n, glm::dvec3 v, glm::
 glm::dvec3 brdf(int shading, const SurfaceD& s, glm::dvec3 n, glm::dvec3 v, glm::dvec3 l) {
     if (shading == SHADING_PBR) return gltf_brdf(s, n, v, l);
     if (shading == SHADING_BLINN_PHONG) return blinn_phong_brdf(s, n, v, l);
-    return s.albedo * (1 / kPi);
+    return s.albedo * (1 / std::numbers::pi);
 }
 
 double cone_of(const ShadeLight& light, glm::dvec3 to_light) {
-    const double cosine = -dot(to_light, vec(light.axis_cos));
+    const double cosine = -dot(to_light, dvec3_of(light.axis_cos));
     const double t = clamp01((cosine - light.axis_cos.w) * light.color_scale.w);
     return t * t;
 }
@@ -90,15 +89,15 @@ ReferenceRadiance reference_radiance(const SurfaceD& s, const Lighting& lighting
         sum.value = sum.value + brdf(lighting.shading, s, n, eye, l) * strength * nl;
     };
     for (const DirectionalLight& light : lighting.directional)
-        add(vec(light.to_light), vec(light.color));
+        add(dvec3_of(light.to_light), dvec3_of(light.color));
     for (const ShadeLight& light : lighting.lights) {
-        const glm::dvec3 offset = vec(light.position_inv_range2) - s.position;
+        const glm::dvec3 offset = dvec3_of(light.position_inv_range2) - s.position;
         const double d2 = dot(offset, offset);
         const double ratio4 = std::pow(d2 * light.position_inv_range2.w, 2);
         const double d = std::max(std::sqrt(d2), kNearest);
         const glm::dvec3 to_light = offset * (1 / d);  // shorter than 1 within the source itself
         const double falloff = clamp01(1 - ratio4) / (d * d) * cone_of(light, to_light);
-        add(to_light, vec(light.color_scale) * falloff);
+        add(to_light, dvec3_of(light.color_scale) * falloff);
     }
     sum.value = sum.value + s.albedo * (lighting.ambient * s.occlusion) + s.emissive;
     return sum;

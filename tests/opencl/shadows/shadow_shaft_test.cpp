@@ -15,10 +15,10 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kHeaders[] = {"kernels/shadows/shadow_triangle.h",
-                                         "kernels/shadows/shadow_shaft.h"};
+constexpr std::string_view kShaftHeaders[] = {"kernels/shadows/shadow_triangle.h",
+                                              "kernels/shadows/shadow_shaft.h"};
 // 1: the triangle hides the box's high corner, as a ray's test finds it; 2: the shaft keeps it.
-constexpr std::string_view kProbe = R"(
+constexpr std::string_view kShaftProbe = R"(
 kernel void probe(global const float* in, global int* out) {
     size_t i = get_global_id(0);
     FV3 v[3];
@@ -67,7 +67,7 @@ TEST(ShadowShaft, KeepsTrianglesThatHideAPoint) {
     constexpr std::size_t kCount = 20000;
     const std::vector<float> in = triangles_beside_rays(kCount);
     const auto all = at_every_width([&](const Gpu& gpu) {
-        return run_probe<int>(gpu, {kHeaders, kProbe}, kCount, kCount, in);
+        return run_probe<int>(gpu, {kShaftHeaders, kShaftProbe}, kCount, kCount, in);
     });
     int hidden = 0;
     for (const int found : all) {

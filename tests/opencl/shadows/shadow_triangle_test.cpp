@@ -16,8 +16,8 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kHeaders[] = {"kernels/shadows/shadow_triangle.h"};
-constexpr std::string_view kProbe = R"(
+constexpr std::string_view kTriangleHeaders[] = {"kernels/shadows/shadow_triangle.h"};
+constexpr std::string_view kTriangleProbe = R"(
 kernel void probe(global const float* in, uint is_direction, global int* out) {
     size_t i = get_global_id(0);
     ShadowLight light = {vload3(4 * i + 1, in), 0.0f, 2.0f, is_direction != 0u};
@@ -38,7 +38,7 @@ std::vector<int> passes_on_device(const std::vector<Ray>& rays, bool are_directi
         }
     }
     return at_every_width([&](const Gpu& gpu) {
-        return run_probe<int>(gpu, {kHeaders, kProbe}, rays.size(), rays.size(), in,
+        return run_probe<int>(gpu, {kTriangleHeaders, kTriangleProbe}, rays.size(), rays.size(), in,
                               are_directions ? 1u : 0u);
     });
 }
@@ -60,7 +60,7 @@ bool passes(const Ray& ray, bool is_direction, double pad) {
 
 // Coordinates are at most 1, so the pad is the same for all.
 TEST(ShadowTriangle, RaysPassItsBoxAsInDouble) {
-    constexpr double kNear = 0.5 * SHADOW_PAD;
+    constexpr double kClose = 0.5 * SHADOW_PAD;
     std::mt19937 random(9);
     std::uniform_real_distribution<float> place(-1.0f, 1.0f), size(0.0f, 0.8f);
     const auto vector = [&](auto& of) { return glm::vec3(of(random), of(random), of(random)); };
@@ -74,7 +74,7 @@ TEST(ShadowTriangle, RaysPassItsBoxAsInDouble) {
         int passing = 0;
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const bool does = passes(rays[i], are_directions, 0.0);
-            if (does != passes(rays[i], are_directions, 1.2 * kNear)) continue;
+            if (does != passes(rays[i], are_directions, 1.2 * kClose)) continue;
             ASSERT_EQ(found[i], does ? 1 : 0) << "ray " << i;
             passing += found[i];
         }
@@ -128,9 +128,9 @@ kernel void probe(global const float* in, global float* out) {
 TEST(ShadowTriangle, PlanesDoNotHideTheirOwnPoints) {
     std::mt19937 random(4);
     std::uniform_real_distribution<float> unit(0.0f, 1.0f);
-    constexpr std::size_t kTriangles = 6000;
+    constexpr std::size_t kRandomTriangles = 6000;
     std::vector<float> in;
-    for (std::size_t i = 0; i < kTriangles; ++i) {
+    for (std::size_t i = 0; i < kRandomTriangles; ++i) {
         const int a = static_cast<int>(i % 3), b = (a + 1 + static_cast<int>(i / 3 % 2)) % 3;
         const int across = 3 - a - b;
         glm::dvec3 v0(0.0), leg_a(0.0), leg_b(0.0);
@@ -147,7 +147,8 @@ TEST(ShadowTriangle, PlanesDoNotHideTheirOwnPoints) {
         }
     }
     const auto all = at_every_width([&](const Gpu& gpu) {
-        return run_probe<float>(gpu, {kHeaders, kPlaneProbe}, kTriangles, kTriangles, in);
+        return run_probe<float>(gpu, {kTriangleHeaders, kPlaneProbe}, kRandomTriangles,
+                                kRandomTriangles, in);
     });
     for (const float behind : all) {
         ASSERT_NEAR(behind, -2.0f, 1.0f);

@@ -12,8 +12,8 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kHeaders[] = {"kernels/shadows/shadow_triangle.h"};
-constexpr std::string_view kProbe = R"(
+constexpr std::string_view kTwofoldHeaders[] = {"kernels/shadows/shadow_triangle.h"};
+constexpr std::string_view kTwofoldProbe = R"(
 kernel void probe(global const float* in, global float* out) {
     size_t i = get_global_id(0);
     FV3 v[3];
@@ -53,7 +53,7 @@ TEST(Twofold, CrossProductsAreAsAccurateAsTheySay) {
     constexpr std::size_t kCount = 20000;
     const std::vector<float> in = thin_triangles(kCount);
     const auto found = at_every_width([&](const Gpu& gpu) {
-        return run_probe<float>(gpu, {kHeaders, kProbe}, kCount, 3 * kCount, in);
+        return run_probe<float>(gpu, {kTwofoldHeaders, kTwofoldProbe}, kCount, 3 * kCount, in);
     });
     for (std::size_t i = 0; i < kCount; ++i) {
         const float* v = in.data() + 9 * i;

@@ -47,7 +47,7 @@ void for_drawn(Synthetic& image, const Visit& visit) {
     }
 }
 
-std::vector<ViewShape> shapes() {
+std::vector<ViewShape> decoded_shapes() {
     std::vector<ViewShape> all(4);
     all[0].width = 83;
     all[1].shift_x = 0.5;
@@ -61,7 +61,7 @@ std::vector<ViewShape> shapes() {
 
 TEST(DecodeGBuffer, DepthAndPositionLieOnThePixelsRay) {
     const Gpu gpu = test_gpu();
-    for (const ViewShape& shape : shapes()) {
+    for (const ViewShape& shape : decoded_shapes()) {
         const View view = make_view(shape);
         Synthetic image = make_synthetic(view, {}, noise_depth(0.3, 4.0, 0.2, 3));
         const Planes planes = decode(gpu, {}, upload_gbuffer(gpu, image));
@@ -81,7 +81,7 @@ TEST(DecodeGBuffer, DepthAndPositionLieOnThePixelsRay) {
 
 TEST(DecodeGBuffer, BackgroundAndPaddingAreZero) {
     const Gpu gpu = test_gpu();
-    const View view = make_view({17, 31});
+    const View view = make_view(ViewShape{17, 31});
     const KernelFeatures features = features_of(GBUFFER_PACKED);
     const Planes planes =
         decode(gpu, features, upload_gbuffer(gpu, make_synthetic(view, features, no_depth())));
@@ -132,7 +132,7 @@ TEST(DecodeGBuffer, PackedAttributesAtEveryLaneWidth) {
         const Gpu gpu = test_gpu(lanes);
         const KernelFeatures features = features_of(GBUFFER_PACKED);
         Synthetic image =
-            make_synthetic(make_view({83, 31}), features, noise_depth(0.3, 60.0, 0.2, 3));
+            make_synthetic(make_view(ViewShape{83, 31}), features, noise_depth(0.3, 60.0, 0.2, 3));
         // Axes, seams and corners of the octahedron, which noise seldom meets.
         const uint codes[] = {0u,          0xffffu,     0xffff0000u, 0xffffffffu,
                               0x7fff7fffu, 0x80008000u, 0x7fffffffu, 0x80000000u};
@@ -151,7 +151,8 @@ TEST(DecodeGBuffer, PackedAttributesAtEveryLaneWidth) {
 TEST(DecodeGBuffer, NormalXyRebuildsZ) {
     const Gpu gpu = test_gpu();
     const KernelFeatures features = features_of(GBUFFER_NORMAL_XY);
-    Synthetic image = make_synthetic(make_view({83, 31}), features, noise_depth(0.3, 60.0, 0.2, 3));
+    Synthetic image =
+        make_synthetic(make_view(ViewShape{83, 31}), features, noise_depth(0.3, 60.0, 0.2, 3));
     const Planes planes = decode(gpu, features, upload_gbuffer(gpu, image));
     for_drawn(image, [&](uint x, uint y) {
         expect_packed_attributes(image, planes, x, y);
@@ -169,7 +170,8 @@ TEST(DecodeGBuffer, NormalXyRebuildsZ) {
 TEST(DecodeGBuffer, FullLayoutIsReadAsItIs) {
     const Gpu gpu = test_gpu();
     const KernelFeatures features = features_of(GBUFFER_FULL);
-    Synthetic image = make_synthetic(make_view({83, 31}), features, noise_depth(0.3, 60.0, 0.2, 3));
+    Synthetic image =
+        make_synthetic(make_view(ViewShape{83, 31}), features, noise_depth(0.3, 60.0, 0.2, 3));
     const Planes planes = decode(gpu, features, upload_gbuffer(gpu, image));
     const std::pair<uint, uint> pairs[] = {
         {SURFACE_POSITION, PLANE_POSITION_X},      {SURFACE_NORMAL, PLANE_NORMAL_X},
@@ -189,7 +191,8 @@ TEST(DecodeGBuffer, FullLayoutIsReadAsItIs) {
 TEST(DecodeGBuffer, HalfLayoutTurnsWorldIntoViewSpace) {
     const Gpu gpu = test_gpu();
     const KernelFeatures features = features_of(GBUFFER_HALF);
-    Synthetic image = make_synthetic(make_view({83, 31}), features, noise_depth(0.3, 60.0, 0.2, 3));
+    Synthetic image =
+        make_synthetic(make_view(ViewShape{83, 31}), features, noise_depth(0.3, 60.0, 0.2, 3));
     const Planes planes = decode(gpu, features, upload_gbuffer(gpu, image));
     const float4 camera = image.view.camera_position;
     for_drawn(image, [&](uint x, uint y) {
@@ -213,7 +216,8 @@ TEST(DecodeGBuffer, HalfLayoutTurnsWorldIntoViewSpace) {
 TEST(DecodeGBuffer, HalfNormalsWithoutALengthStayZero) {
     const Gpu gpu = test_gpu();
     const KernelFeatures features = features_of(GBUFFER_HALF);
-    Synthetic image = make_synthetic(make_view({17, 5}), features, noise_depth(0.3, 60.0, 0.2, 3));
+    Synthetic image =
+        make_synthetic(make_view(ViewShape{17, 5}), features, noise_depth(0.3, 60.0, 0.2, 3));
     for (const uint i : {0u, 1u, 2u}) {
         std::uint16_t* plane = image.plane<std::uint16_t>(PLANE_NORMAL_X + i);
         std::fill(plane, plane + image.view.stride * image.view.height, std::uint16_t{0});

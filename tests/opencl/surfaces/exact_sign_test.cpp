@@ -13,8 +13,8 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kHeaders[] = {"kernels/surfaces/exact_sign.h"};
-constexpr std::string_view kProbe = R"(
+constexpr std::string_view kSignHeaders[] = {"kernels/surfaces/exact_sign.h"};
+constexpr std::string_view kSignProbe = R"(
 kernel void probe(global const float* v, global int* out) {
     size_t i = get_global_id(0);
     out[i] = edge_side(fixed_of(vload3(3 * i, v)), fixed_of(vload3(3 * i + 1, v)),
@@ -22,17 +22,17 @@ kernel void probe(global const float* v, global int* out) {
 }
 )";
 
-using Vector = std::array<float, 3>;
-using Triple = std::array<Vector, 3>;  // a, b, d
+using FloatVector = std::array<float, 3>;
+using Triple = std::array<FloatVector, 3>;  // a, b, d
 using Integer = __int128;
 
 std::vector<int> device_sides(const std::vector<Triple>& triples) {
     const Gpu gpu = test_gpu(1);  // scalars at every width
     std::vector<float> values;
     for (const Triple& t : triples) {
-        for (const Vector& v : t) values.insert(values.end(), v.begin(), v.end());
+        for (const FloatVector& v : t) values.insert(values.end(), v.begin(), v.end());
     }
-    return run_probe<int>(gpu, {kHeaders, kProbe}, triples.size(), triples.size(), values);
+    return run_probe<int>(gpu, {kSignHeaders, kSignProbe}, triples.size(), triples.size(), values);
 }
 
 int sign(Integer v) { return v > 0 ? 1 : v < 0 ? -1 : 0; }
@@ -62,7 +62,7 @@ std::vector<Triple> integer_triples(int bits, std::uint32_t seed) {
     std::vector<Triple> out;
     for (int i = 0; i < 4000; ++i) {
         Triple t{};
-        for (Vector& v : t) v = {number(), number(), number()};
+        for (FloatVector& v : t) v = {number(), number(), number()};
         if (i % 3 == 0) {
             for (std::size_t axis = 0; axis < 3; ++axis) t[2][axis] = t[0][axis] + t[1][axis];
         }
@@ -100,7 +100,7 @@ TEST(ExactSign, TurnsWithItsEdge) {
     std::mt19937 random(9);
     std::normal_distribution<float> normal;
     for (Triple& t : triples) {
-        for (Vector& v : t) {
+        for (FloatVector& v : t) {
             for (float& c : v) c *= std::abs(normal(random));
         }
     }

@@ -13,8 +13,8 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kHeaders[] = {"kernels/surfaces/raster_set_up.h"};
-constexpr std::string_view kProbe = R"(
+constexpr std::string_view kSetUpHeaders[] = {"kernels/surfaces/raster_set_up.h"};
+constexpr std::string_view kSetUpProbe = R"(
 kernel void probe(View view, global const float* in, global float* out) {
     size_t i = get_global_id(0);
     float3 p = vload3(2 * i, in), q = vload3(2 * i + 1, in);
@@ -25,13 +25,13 @@ kernel void probe(View view, global const float* in, global float* out) {
 )";
 
 // Rays of x in [near, far] and y in [-far, -near]: the view's corners differ in size.
-constexpr float kNear = 0.01f, kFar = 3.0f;
+constexpr float kNearPlane = 0.01f, kFarPlane = 3.0f;
 
 View view_beside_the_axis() {
     View view{};
     view.width = view.height = 64;
-    const float step = (kFar - kNear) / 64.0f;
-    view.ray = {step, kNear, -step, -kNear};
+    const float step = (kFarPlane - kNearPlane) / 64.0f;
+    view.ray = {step, kNearPlane, -step, -kNearPlane};
     return view;
 }
 
@@ -64,11 +64,11 @@ TEST(RasterSetUp, SignsOfEdgesAreCertainBeyondOne) {
     constexpr std::size_t kEdges = 4000;
     const std::vector<float> in = edges_end_on(kEdges);
     const auto found = at_every_width([&](const Gpu& gpu) {
-        return run_probe<float>(gpu, {kHeaders, kProbe}, kEdges, 3 * kEdges, view_beside_the_axis(),
-                                in);
+        return run_probe<float>(gpu, {kSetUpHeaders, kSetUpProbe}, kEdges, 3 * kEdges,
+                                view_beside_the_axis(), in);
     });
     std::mt19937 random(8);
-    std::uniform_real_distribution<float> place(kNear, kFar);
+    std::uniform_real_distribution<float> place(kNearPlane, kFarPlane);
     int sure = 0;
     for (std::size_t i = 0; i < 100 * kEdges; ++i) {
         const std::size_t edge = i / 100;

@@ -28,10 +28,11 @@ struct Pixel {
 
 // Standard depth, so that the plane holds 1 - d; the camera looks along +X from (3, 2, 1).
 MatrixView some_view() {
-    return make_view({.view = {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, -1, -2, 3, 1},
-                      .projection = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1.001, -1, 0, 0, -0.1001, 0},
-                      .width = kWidth,
-                      .height = kHeight});
+    return make_view(
+        ViewMatrices{.view = {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, -1, -2, 3, 1},
+                     .projection = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1.001, -1, 0, 0, -0.1001, 0},
+                     .width = kWidth,
+                     .height = kHeight});
 }
 
 std::vector<Pixel> some_pixels() {
@@ -98,18 +99,19 @@ SourceGBuffer source_of(const Gpu& gpu, const SourceFormat& format,
     return out;
 }
 
-struct Planes {
+struct HalfPlanes {
     std::vector<float> depth;
     std::vector<uint> normal, albedo;
 };
 
-Planes repacked(const Gpu& gpu, const SourceFormat& format, const SourceGBuffer& source) {
+HalfPlanes repacked(const Gpu& gpu, const SourceFormat& format, const SourceGBuffer& source) {
     RepackGBuffer stage(gpu, default_tuning(gpu.info), format);
     StageTimer timer;
     const GBuffer out = stage.enqueue(source, some_view(), timer);
     const std::vector<std::byte> bytes = download(gpu, out.bytes);
     const std::size_t count = std::size_t{out.view.stride} * kHeight;
-    Planes planes{std::vector<float>(count), std::vector<uint>(count), std::vector<uint>(count)};
+    HalfPlanes planes{std::vector<float>(count), std::vector<uint>(count),
+                      std::vector<uint>(count)};
     const auto copy = [&](void* to, uint plane) {
         std::memcpy(to, &bytes[out.layout.offset_bytes[plane]], count * 4);
     };
@@ -139,7 +141,7 @@ double albedo_error(uint got, uint expected) {
 }
 
 // `albedo_codes`: how many codes the albedo may be off.
-void expect_planes(const Planes& planes, const std::vector<Pixel>& pixels,
+void expect_planes(const HalfPlanes& planes, const std::vector<Pixel>& pixels,
                    const SourceFormat& format, double albedo_codes) {
     // Of 16 octahedral bits 6.6e-5, twice where the source has them, too.
     const double angle = format.normal == NormalFormat::rgba8    ? 0.008
@@ -188,7 +190,7 @@ TEST(RepackGBuffer, OneRoughnessForAll) {
     const std::vector<Pixel> pixels = some_pixels();
     SourceGBuffer source = source_of(gpu, {}, pixels);
     source.roughness = 0.2f;
-    const Planes planes = repacked(gpu, {}, source);
+    const HalfPlanes planes = repacked(gpu, {}, source);
     for (std::size_t i = 0; i < kWidth; ++i) {
         if (pixels[i].depth < 1.0f) {
             EXPECT_EQ(planes.albedo[i] >> 24, 51u);

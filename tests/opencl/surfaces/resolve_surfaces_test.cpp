@@ -21,15 +21,15 @@
 namespace kilolux {
 namespace {
 
-constexpr uint kWidth = 21, kHeight = 5;
+constexpr uint kResolvedWidth = 21, kResolvedHeight = 5;
 
 // A view with square pixels of 0.1 at depth 1.
 View small_view() {
     View view{};
-    view.ray = {0.1f, -0.05f * kWidth, -0.1f, 0.05f * kHeight};
+    view.ray = {0.1f, -0.05f * kResolvedWidth, -0.1f, 0.05f * kResolvedHeight};
     view.depth = {10.0f, 0.0f, 0.0f, 0.0f};
-    view.width = kWidth;
-    view.height = kHeight;
+    view.width = kResolvedWidth;
+    view.height = kResolvedHeight;
     view.stride = 32;
     view.view_from_world_x = {1, 0, 0, 0};
     view.view_from_world_y = {0, 1, 0, 0};
@@ -215,10 +215,11 @@ TEST(ResolveSurfaces, InterpolatesAndLeavesTheBackground) {
     const auto at = [&](std::size_t index, uint x, uint y) {
         return planes[index * plane + y * view.stride + x];
     };
-    for (uint y = 0; y < kHeight; ++y) {
+    for (uint y = 0; y < kResolvedHeight; ++y) {
         EXPECT_EQ(at(SURFACE_DEPTH, 2, y), 0.0f);
         EXPECT_NEAR(at(SURFACE_DEPTH, 12, y), 2.0f, 1e-6f);
-        EXPECT_NEAR(at(SURFACE_POSITION, 12, y), 2.0f * 0.1f * (12.5f - 0.5f * kWidth), 1e-6f);
+        EXPECT_NEAR(at(SURFACE_POSITION, 12, y), 2.0f * 0.1f * (12.5f - 0.5f * kResolvedWidth),
+                    1e-6f);
         EXPECT_NEAR(at(SURFACE_ALBEDO + 1, 12, y), 0.5f * 128.0f / 255.0f, 1e-6f);
         EXPECT_EQ(at(SURFACE_ROUGHNESS, 12, y), 0.75f);
         EXPECT_EQ(at(SURFACE_METALLIC, 12, y), 0.25f);
@@ -234,10 +235,10 @@ TEST(ResolveSurfaces, InterpolatesAndLeavesTheBackground) {
 std::vector<float> plane_of(const std::vector<float>& planes, std::size_t first, int count) {
     const View view = small_view();
     std::vector<float> out;
-    for (std::size_t y = first * kHeight; y < (first + static_cast<std::size_t>(count)) * kHeight;
-         ++y) {
+    for (std::size_t y = first * kResolvedHeight;
+         y < (first + static_cast<std::size_t>(count)) * kResolvedHeight; ++y) {
         const auto row = planes.begin() + static_cast<std::ptrdiff_t>(y * view.stride);
-        out.insert(out.end(), row, row + kWidth);
+        out.insert(out.end(), row, row + kResolvedWidth);
     }
     return out;
 }
@@ -275,7 +276,7 @@ TEST(ResolveSurfaces, TheWeightOfSpecularIsItsTexturesAlpha) {
     const std::vector<float> f90 = plane_of(
         decoded(gpu, resolve_quad(gpu, GBUFFER_FULL, features, material)), SURFACE_SPECULAR_F90, 1);
     for (std::size_t i = 0; i < f90.size(); ++i) {
-        ASSERT_EQ(f90[i], i % kWidth < 3 ? 0.0f : 0.75f) << i;
+        ASSERT_EQ(f90[i], i % kResolvedWidth < 3 ? 0.0f : 0.75f) << i;
     }
 }
 
@@ -310,8 +311,8 @@ TEST(ResolveSurfaces, MasksUseTheVerticesAlpha) {
     material.row.emissive_cutoff.w = 0.9f;
     for (const int group : {1, 32}) {
         const std::vector<uint> ids = drawn_ids(test_gpu(1), group, true, material);
-        for (uint y = 0; y < kHeight; ++y) {
-            for (uint x = 3; x < kWidth; ++x) {
+        for (uint y = 0; y < kResolvedHeight; ++y) {
+            for (uint x = 3; x < kResolvedWidth; ++x) {
                 EXPECT_EQ(ids[y * 32 + x] != 0, x < 8) << x << ' ' << y << ", group " << group;
             }
         }
@@ -330,7 +331,7 @@ uint texels_of_quad(int lanes, float repeats, int anisotropy) {
     StageTimer timer;
     const std::vector<uint> counts =
         download(gpu, count.enqueue(device_ids.get(), scene.buffers, view, timer));
-    const uint expected = counts[kWidth - 1];
+    const uint expected = counts[kResolvedWidth - 1];
     for (uint y = 0; y < view.height; ++y) {
         for (uint x = 0; x < view.width; ++x) {
             const std::size_t i = y * view.stride + x;
@@ -355,9 +356,10 @@ TEST(CountTexels, CountsLevelsAndSamples) {
 TEST(EveryKernel, Triangles) {
     const std::vector<uint> ids = drawn_ids(test_gpu(1), 1);
     // The quad's left edge is at -1.6 / 2, at pixel 2.5: that column's centres lie on it.
-    for (uint y = 0; y < kHeight; ++y) {
+    for (uint y = 0; y < kResolvedHeight; ++y) {
         EXPECT_EQ(ids[y * 32 + 1], 0u);
-        for (uint x = 3; x < kWidth; ++x) EXPECT_TRUE(ids[y * 32 + x] == 1 || ids[y * 32 + x] == 2);
+        for (uint x = 3; x < kResolvedWidth; ++x)
+            EXPECT_TRUE(ids[y * 32 + x] == 1 || ids[y * 32 + x] == 2);
     }
     EXPECT_EQ(drawn_ids(test_gpu(4), 1), ids);
     EXPECT_EQ(drawn_ids(test_gpu(1), 32), ids);

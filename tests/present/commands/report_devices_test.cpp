@@ -12,7 +12,7 @@
 namespace kilolux {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 class ReportDevices : public CacheSandbox {
  protected:
@@ -34,9 +34,9 @@ class ReportDevices : public CacheSandbox {
 };
 
 // A report's rows without what times decide.
-Json errors_of(const Json& document) {
-    Json rows = document.at("rows");
-    for (Json& row : rows) {
+OrderedJson errors_of(const OrderedJson& document) {
+    OrderedJson rows = document.at("rows");
+    for (OrderedJson& row : rows) {
         std::set<std::string> timed = {"pareto", "noise", "frames", "G evaluations/s"};
         for (const auto& [name, value] : row.items()) {
             if (name.ends_with(" [ms]") || name.starts_with("times default")) timed.insert(name);
@@ -51,15 +51,15 @@ TEST_F(ReportDevices, MeasureTheErrorsOfOne) {
     ASSERT_EQ(one.code, 0) << one.err;
     const ChildResult two = report("0,1");
     ASSERT_EQ(two.code, 0) << two.err;
-    const Json of_one = Json::parse(one.out), of_two = Json::parse(two.out);
+    const OrderedJson of_one = OrderedJson::parse(one.out), of_two = OrderedJson::parse(two.out);
     EXPECT_FALSE(of_one.at("context").contains("devices"));
     EXPECT_EQ(errors_of(of_two), errors_of(of_one));
     EXPECT_GE(of_one.at("rows").size(), 5u);
-    for (const Json& row : of_two.at("rows")) EXPECT_GT(row.at("frame [ms]"), 0.0) << row;
-    const Json& devices = of_two.at("context").at("devices");
+    for (const OrderedJson& row : of_two.at("rows")) EXPECT_GT(row.at("frame [ms]"), 0.0) << row;
+    const OrderedJson& devices = of_two.at("context").at("devices");
     ASSERT_EQ(devices.size(), 2u);
     std::size_t settings = 0;
-    for (const Json& device : devices) settings += device.at("settings").get<std::size_t>();
+    for (const OrderedJson& device : devices) settings += device.at("settings").get<std::size_t>();
     EXPECT_EQ(settings, of_two.at("rows").size());
     EXPECT_TRUE(devices[0].at("times"));
     EXPECT_FALSE(devices[1].at("times")) << "times of two devices have no common unit";
@@ -75,11 +75,12 @@ TEST_F(ReportDevices, MayDifferWhereThatIsAllowed) {
     EXPECT_TRUE(contains(budget.err, "kept for one kind of device")) << budget.err;
     const ChildResult mixed = report("all", {"--mixed-devices"}, unlike);
     ASSERT_EQ(mixed.code, 0) << mixed.err;
-    const Json document = Json::parse(mixed.out);
+    const OrderedJson document = OrderedJson::parse(mixed.out);
     bool both = true;  // unless the other one has begun too late
-    for (const Json& device : document.at("context").at("devices"))
+    for (const OrderedJson& device : document.at("context").at("devices"))
         both &= device.at("settings") > 0;
-    for (const Json& row : document.at("rows")) EXPECT_EQ(row.contains("errors by"), both) << row;
+    for (const OrderedJson& row : document.at("rows"))
+        EXPECT_EQ(row.contains("errors by"), both) << row;
 }
 
 TEST_F(ReportDevices, HaveTheMemoryOfOne) {

@@ -5,18 +5,13 @@
 #include <cmath>
 
 #include "host/scene/gltf/load_scene.h"
+#include "tests/scene/expect_near.h"
 #include "tests/support/gltf_compressed.h"
 
 namespace kilolux {
 namespace {
 
 using nlohmann::json;
-
-void expect_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance) {
-    EXPECT_NEAR(glm::length(a - b), 0.0, tolerance)
-        << "(" << a.x << ", " << a.y << ", " << a.z << ") is not (" << b.x << ", " << b.y << ", "
-        << b.z << ")";
-}
 
 Scene load_glb(const GltfBuilder& file) {
     const TempFolder folder;

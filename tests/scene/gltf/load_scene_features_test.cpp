@@ -5,18 +5,13 @@
 #include <random>
 
 #include "host/scene/gltf/load_scene.h"
+#include "tests/scene/expect_near.h"
 #include "tests/support/gltf_builder.h"
 
 namespace kilolux {
 namespace {
 
 using nlohmann::json;
-
-void expect_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-6) {
-    EXPECT_NEAR(glm::length(a - b), 0.0, tolerance)
-        << "(" << a.x << ", " << a.y << ", " << a.z << ") is not (" << b.x << ", " << b.y << ", "
-        << b.z << ")";
-}
 
 Material material_with(const char* extension, const json& value, json material = json::object()) {
     GltfBuilder file = triangle_file();

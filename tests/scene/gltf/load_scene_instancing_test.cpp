@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host/scene/gltf/load_scene.h"
+#include "tests/scene/expect_near.h"
 #include "tests/support/gltf_builder.h"
 #include "tests/support/messages.h"
 
@@ -20,10 +21,6 @@ GltfBuilder instanced_file(const json& attributes) {
     file.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = attributes;
     file.root["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
     return file;
-}
-
-void expect_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance) {
-    EXPECT_LT(glm::length(a - b), tolerance) << a.x << " " << a.y << " " << a.z;
 }
 
 // The vertex (1, 0, 0) scaled, turned by 90 degrees about z, shifted, and then moved by the node.

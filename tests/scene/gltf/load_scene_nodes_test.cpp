@@ -6,18 +6,13 @@
 #include <limits>
 
 #include "host/scene/gltf/load_scene.h"
+#include "tests/scene/expect_near.h"
 #include "tests/support/gltf_builder.h"
 
 namespace kilolux {
 namespace {
 
 using nlohmann::json;
-
-void expect_near(const glm::dvec3& a, const glm::dvec3& b) {
-    EXPECT_NEAR(glm::length(a - b), 0.0, 1e-6)
-        << "(" << a.x << ", " << a.y << ", " << a.z << ") is not (" << b.x << ", " << b.y << ", "
-        << b.z << ")";
-}
 
 // A file of one light on a node that is turned to shine along +X and scaled.
 SceneLight light_of(const json& light) {

@@ -4,18 +4,13 @@
 #include <cmath>
 
 #include "host/scene/gltf/load_scene.h"
+#include "tests/scene/expect_near.h"
 #include "tests/support/gltf_builder.h"
 
 namespace kilolux {
 namespace {
 
 using nlohmann::json;
-
-void expect_near(const glm::vec3& a, const glm::vec3& b) {
-    EXPECT_NEAR(glm::length(a - b), 0.0f, 1e-5f)
-        << "(" << a.x << ", " << a.y << ", " << a.z << ") is not (" << b.x << ", " << b.y << ", "
-        << b.z << ")";
-}
 
 glm::vec3 bitangent(const Mesh& mesh, std::size_t vertex) {
     const glm::vec4 tangent = mesh.tangents.at(vertex);

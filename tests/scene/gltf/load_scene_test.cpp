@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "tests/scene/expect_near.h"
 #include "tests/support/gltf_builder.h"
 
 namespace kilolux {
@@ -14,14 +15,6 @@ namespace {
 using nlohmann::json;
 
 // float32 arithmetic of a few operations on values near 1.
-constexpr double kTolerance = 1e-6;
-
-void expect_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance = kTolerance) {
-    EXPECT_NEAR(a.x, b.x, tolerance);
-    EXPECT_NEAR(a.y, b.y, tolerance);
-    EXPECT_NEAR(a.z, b.z, tolerance);
-}
-
 TEST(LoadScene, ReadsATriangleFromGltfAndFromGlb) {
     const GltfBuilder file = triangle_file();
     const TempFolder folder;

@@ -47,7 +47,7 @@ const Image& image_of(const Scene& scene, const TextureUse& use) {
 }
 
 // Two images; the specular one is laid out in its own way.
-GltfBuilder textured_file() {
+GltfBuilder glossy_file() {
     GltfBuilder file =
         file_with({{"diffuseFactor", {0.5, 1, 1, 0.25}},
                    {"glossinessFactor", 0.75},
@@ -64,7 +64,7 @@ GltfBuilder textured_file() {
 }
 
 TEST(SpecularGlossiness, TexturesStayAndRoughnessIsMadeOfGlossiness) {
-    const Scene scene = load(textured_file());
+    const Scene scene = load(glossy_file());
     EXPECT_EQ(scene_defect(scene), "");
     ASSERT_EQ(scene.images.size(), 3u);
     const Material& m = scene.materials.at(0);
@@ -84,7 +84,7 @@ TEST(SpecularGlossiness, TexturesStayAndRoughnessIsMadeOfGlossiness) {
 }
 
 TEST(SpecularGlossiness, WithoutATextureItsFactorIsTheRoughness) {
-    GltfBuilder file = textured_file();
+    GltfBuilder file = glossy_file();
     file.root["materials"][0]["extensions"][kName].erase("specularGlossinessTexture");
     const Scene scene = load(file);
     EXPECT_EQ(scene.images.size(), 1u);
@@ -93,7 +93,7 @@ TEST(SpecularGlossiness, WithoutATextureItsFactorIsTheRoughness) {
 }
 
 TEST(SpecularGlossiness, MaterialsOfTheSameTextureShareItsRoughness) {
-    GltfBuilder file = textured_file();
+    GltfBuilder file = glossy_file();
     file.root["materials"].push_back(file.root["materials"][0]);
     EXPECT_EQ(load(file).images.size(), 3u);
     file.root["materials"][1]["extensions"][kName]["glossinessFactor"] = 0.5;
