@@ -12,6 +12,7 @@
 #include "host/base/spares.h"
 #include "host/render/renderer.h"
 #include "present/cli/options.h"
+#include "present/cli/output_options.h"
 #include "present/cli/progress.h"
 #include "present/cli/stats_json.h"
 #include "present/commands/error_budget_options.h"

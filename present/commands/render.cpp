@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
+#include "present/commands/render.h"
 
+#include <fmt/format.h>
 #include <memory>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "present/cli/option_builder.h"
 #include "present/cli/option_values.h"
 #include "present/cli/options.h"
+#include "present/cli/output_options.h"
 #include "present/commands/camera_motion.h"
 #include "present/commands/devices/device_share.h"
 #include "present/commands/devices/picture_by_rows.h"
@@ -21,7 +23,6 @@
 #include "present/commands/scene_renderer.h"
 #include "present/image/comparison.h"
 #include "present/image/image_file.h"
-#include "present/program.h"
 #include "present/video/video_file.h"
 
 namespace kilolux {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/core.h>
+#include "present/commands/report.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 
 #include "host/base/error.h"
@@ -16,12 +17,12 @@
 #include "present/cli/progress.h"
 #include "present/cli/scene_choice.h"
 #include "present/cli/stats_json.h"
-#include "present/commands/bench.h"
+#include "present/commands/bench/bench.h"
+#include "present/commands/bench/bench_context.h"
 #include "present/commands/devices/report_devices.h"
 #include "present/commands/error_budget_options.h"
 #include "present/commands/picture_tasks.h"
 #include "present/image/image_file.h"
-#include "present/program.h"
 
 namespace kilolux {
 namespace {

@@ -2,9 +2,7 @@
 // Tests every option of `kilolux render`: all code that reads the rows of settings reads all of
 // them.
 #include <gtest/gtest.h>
-
 #include <wordexp.h>
-
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -12,7 +10,7 @@
 #include "host/scene/generated/scenes.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/scene_choice.h"
-#include "present/commands/bench.h"
+#include "present/commands/bench/bench_context.h"
 #include "present/commands/made_picture.h"
 #include "present/config_file.h"
 #include "present/window/app/command_text.h"

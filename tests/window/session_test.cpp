@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Uses `kilolux view` like a user: real window, real events, pictures of the screen. Under Xvfb.
 #include <gtest/gtest.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include "host/picture/views.h"
 #include "present/cli/names.h"
 #include "present/window/script/script.h"
+#include "present/window/script/script_player.h"
 #include "tests/support/paths.h"
 #include "tests/window/expected_picture.h"
 #include "tests/window/scripted_window.h"

@@ -21,6 +21,7 @@
 #include "present/window/screen/event_queue.h"
 #include "present/window/screen/window.h"
 #include "present/window/script/script.h"
+#include "present/window/script/script_player.h"
 
 namespace kilolux {
 

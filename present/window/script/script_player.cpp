@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "present/window/script/script_player.h"
+
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
-
 #include <cmath>
 #include <map>
 
 #include "host/base/error.h"
 #include "host/base/suggest.h"
 #include "present/cli/option_values.h"
-#include "present/window/script/script.h"
 
 namespace kilolux {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "present/cli/sequence.h"
 #include "present/image/image_file.h"
+#include "present/image/read.h"
 #include "tests/support/child.h"
 #include "tests/support/messages.h"
 

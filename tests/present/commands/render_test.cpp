@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `kilolux render` and `info` as a whole: files, sequences, statistics, comparison.
 #include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -9,6 +8,7 @@
 #include <thread>
 
 #include "present/image/image_file.h"
+#include "present/image/read.h"
 #include "tests/support/child.h"
 #include "tests/support/messages.h"
 
