@@ -84,13 +84,13 @@ int FrameList::operator[](std::size_t i) const {
     return ranges_[range].first + static_cast<int>(i - before) * ranges_[range].step;
 }
 
-ShardFrames::ShardFrames(FrameList frames, const Shard& shard)
-    : frames_(std::move(frames)),
+ShardNumbers::ShardNumbers(FrameList numbers, const Shard& shard)
+    : numbers_(std::move(numbers)),
       index_(static_cast<std::size_t>(shard.index)),
       count_(static_cast<std::size_t>(shard.count)),
-      size_(index_ < frames_.size() ? (frames_.size() - 1 - index_) / count_ + 1 : 0) {}
+      size_(index_ < numbers_.size() ? (numbers_.size() - 1 - index_) / count_ + 1 : 0) {}
 
-int ShardFrames::operator[](std::size_t i) const { return frames_[index_ + i * count_]; }
+int ShardNumbers::operator[](std::size_t i) const { return numbers_[index_ + i * count_]; }
 
 PixelRect tile_rect(const TileGrid& tiles, int tile, int width, int height) {
     const auto edge = [](int pixels, int place, int count) {
@@ -106,14 +106,14 @@ bool has_frame_pattern(const std::filesystem::path& file) {
     return file.filename().string().find('#') != std::string::npos;
 }
 
-std::filesystem::path frame_file(const std::filesystem::path& pattern, int frame) {
+std::filesystem::path numbered_file(const std::filesystem::path& pattern, int number) {
     std::string name = pattern.filename().string();
     const std::size_t last = name.find_last_of('#');
     if (last == std::string::npos) return pattern;
     const std::size_t before = name.find_last_not_of('#', last);
     const std::size_t first = before == std::string::npos ? 0 : before + 1;
     const std::size_t width = last - first + 1;
-    name.replace(first, width, fmt::format("{:0{}}", frame, width));
+    name.replace(first, width, fmt::format("{:0{}}", number, width));
     return pattern.parent_path() / name;
 }
 

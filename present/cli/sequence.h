@@ -49,21 +49,22 @@ class FrameList {
 struct Shard {
     int index = 0;  // 0 <= index < count
     int count = 1;
-    std::string_view variable{};  // of the environment, which told it; empty: none
+    std::string_view variable{};  // of the environment, which says it; empty: none
     bool operator==(const Shard&) const = default;
 };
 
-/// Every `shard.count`-th of `frames`, from that at `shard.index` on. Counted, not stored.
-class ShardFrames {
+/// Every `shard.count`-th of `numbers`, of frames or tiles, from that at `shard.index` on. Counted,
+/// not stored.
+class ShardNumbers {
  public:
-    ShardFrames(FrameList frames, const Shard& shard);
+    ShardNumbers(FrameList numbers, const Shard& shard);
     std::size_t size() const { return size_; }
 
     /// 0 <= i < size().
     int operator[](std::size_t i) const;
 
  private:
-    FrameList frames_;
+    FrameList numbers_;
     std::size_t index_;
     std::size_t count_;
     std::size_t size_;
@@ -79,12 +80,12 @@ struct TileGrid {
 /// The pixels of a tile of a picture; tiles are counted from the left in each row, from the top.
 PixelRect tile_rect(const TileGrid& tiles, int tile, int width, int height);
 
-/// Whether the file name holds a run of '#' that stands for the frame number.
+/// Whether the file name holds a run of '#' that stands for the number of a frame or tile.
 bool has_frame_pattern(const std::filesystem::path& file);
 
-/// The file of one frame: the last run of '#' in the file name becomes the number, padded with
-/// zeros to the run's length and never cut.
-std::filesystem::path frame_file(const std::filesystem::path& pattern, int frame);
+/// The file of one frame or tile: the last run of '#' in the file name becomes the number, padded
+/// with zeros to the run's length and never cut.
+std::filesystem::path numbered_file(const std::filesystem::path& pattern, int number);
 
 /// The variables of one scheduler. Those that it does not set are null.
 struct ArrayVariables {

@@ -19,9 +19,9 @@
 #include "present/cli/stats_json.h"
 #include "present/commands/bench/bench.h"
 #include "present/commands/bench/bench_context.h"
+#include "present/commands/devices/device_choice.h"
 #include "present/commands/devices/report_devices.h"
 #include "present/commands/error_budget_options.h"
-#include "present/commands/picture_tasks.h"
 #include "present/image/image_file.h"
 
 namespace kilolux {

@@ -8,7 +8,7 @@
 #include "present/commands/bench/bench_context.h"
 #include "present/commands/bench/bench_sweep.h"
 #include "present/commands/made_picture.h"
-#include "present/commands/picture_tasks.h"
+#include "present/commands/render_tasks.h"
 
 namespace kilolux {
 namespace {
@@ -86,7 +86,7 @@ void measure_job(const BenchOptions& bench, int warm_up, JobRow& job, const OnRe
     RenderOptions options = job_options(bench, job, folder.path());
     const PictureTasks tasks(options);
     const FirstPicture start{request_of(options, options.shared.settings.want), tasks[0].time,
-                             tasks[0].frame};
+                             tasks[0].number};
     std::optional<SceneRenderer> pictures;
     job.start_s = seconds_of([&] {
         if (!is_video(options.output.output)) check_can_write_image(tasks[0].file);
@@ -99,7 +99,7 @@ void measure_job(const BenchOptions& bench, int warm_up, JobRow& job, const OnRe
     const auto frames = pictures->renderer().spare_frames();
     job.frames_s = seconds_of([&] {
         for (std::size_t i = 0; i < tasks.size(); ++i) {
-            frames->give(pictures->render(tasks[i].time, tasks[i].frame));
+            frames->give(pictures->render(tasks[i].time, tasks[i].number));
         }
     });
 }

@@ -52,7 +52,7 @@ TEST(RenderCrop, TilesAreThePictureByShards) {
         int pixels = 0;
         for (int i = 0; i < 6; ++i) {
             const PixelRect rect = tile_rect(grid, i, kWidth, kHeight);
-            const fs::path file = frame_file(tiles, i);
+            const fs::path file = numbered_file(tiles, i);
             const FloatImage tile = read_image(file);
             ASSERT_EQ(tile.width, rect.width);
             ASSERT_EQ(tile.height, rect.height);
@@ -69,7 +69,7 @@ TEST(RenderCrop, TilesAreThePictureByShards) {
         EXPECT_EQ(pixels, kWidth * kHeight);
         std::vector<std::string> words = {"assemble", "-o",
                                           (folder / "joined").string() + extension};
-        for (int i = 0; i < 6; ++i) words.push_back(frame_file(tiles, 5 - i).string());
+        for (int i = 0; i < 6; ++i) words.push_back(numbered_file(tiles, 5 - i).string());
         const ChildResult joined = run_kilolux(words);
         EXPECT_EQ(joined.code, 0) << joined.err;
         EXPECT_TRUE(text_of_file(words[2]) == text_of_file(whole)) << extension;
@@ -87,7 +87,7 @@ TEST(RenderCrop, ATileIsACrop) {
         const fs::path tile = folder / (std::string("t.#") + extension);
         ASSERT_EQ(render(crop, {"--crop", "35,25,35,25"}).code, 0);
         ASSERT_EQ(render(tile, {"--tiles", "2x2", "--shard", "3/4"}).code, 0);
-        EXPECT_EQ(text_of_file(frame_file(tile, 3)), text_of_file(crop)) << extension;
+        EXPECT_EQ(text_of_file(numbered_file(tile, 3)), text_of_file(crop)) << extension;
     }
     const ChildResult other =
         render(folder / "crop.exr", {"--crop", "34,25,35,25", "--skip-existing"});
