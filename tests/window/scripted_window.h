@@ -115,4 +115,12 @@ class Script {
     std::string text_;
 };
 
+/// Plays a session and expects that neither OpenGL, OpenCL nor the program complains: an error
+/// during a script ends it with a message.
+inline void play(const Script& script) {
+    const ChildResult result = view_in_display({}, small_window(script.write()));
+    ASSERT_EQ(result.code, 0) << result.err << result.out;
+    EXPECT_EQ(result.err, "");
+}
+
 }  // namespace kilolux
