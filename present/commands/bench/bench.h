@@ -21,6 +21,7 @@ struct BenchAxes {
     std::optional<std::vector<std::array<int, 3>>> grids;
     std::optional<std::vector<int>> lanes;
     std::optional<std::vector<uint>> gbuffers;
+    bool operator==(const BenchAxes&) const = default;
 };
 
 struct BenchOptions {
@@ -37,6 +38,7 @@ struct BenchOptions {
     bool quick = false;
     bool tune = false;
     BudgetOptions budget;
+    bool operator==(const BenchOptions&) const = default;
 };
 
 /// A table as a list of objects; values that were not measured are null.
