@@ -119,11 +119,11 @@ LightInput begin(Pipeline& p, const Shot& shot, Frame& frame, FrameStats& stats)
                          context.scene->scene().revisions};
     // OpenGL's targets still hold the tile of the last rows, which further rows of the same picture
     // need. Background and results that are asked for do not change it.
-    PictureKey drawn = key;
-    drawn.settings.background.reset();
-    drawn.settings.want = {};
-    if (!shot.rows || !(drawn == p.last.drawn)) p.last.raster_tile = -1;
-    p.last.drawn = std::move(drawn);
+    PictureKey opengl = key;
+    opengl.settings.background.reset();
+    opengl.settings.want = {};
+    if (!shot.rows || !(opengl == p.last.opengl)) p.last.raster_tile = -1;
+    p.last.opengl = std::move(opengl);
     p.samples.begin(key, context.is_whole() ? shot.samples : 0);
     p.picture.begin(shot.display, frame, shot.rows.has_value());
     stats.zero_normals = context.scene->zero_normals();

@@ -165,10 +165,10 @@ GBuffer SurfacePass::draw_in_opencl(const Sample& sample, Measured out) {
     return resolve(ids, scene, view, sample, out);
 }
 
-GBuffer SurfacePass::resolve(const DeviceArray<uint>& drawn, const SurfaceBuffers& scene,
+GBuffer SurfacePass::resolve(const DeviceArray<uint>& all_ids, const SurfaceBuffers& scene,
                              const View& view, const Sample& sample, Measured out) {
     const DeviceArray<uint> ids =
-        sample.needed ? mask_->enqueue(sample.needed->done, view, drawn, out.timer) : drawn;
+        sample.needed ? mask_->enqueue(sample.needed->done, view, all_ids, out.timer) : all_ids;
     GBuffer gbuffer = resolve_->enqueue(
         ids, scene, make_gbuffer_layout(context_.plan.gbuffer, view.stride, view.height), view,
         out.timer);

@@ -98,8 +98,8 @@ ComparedRow ReportComparison::compare(const ReportSetting& setting, const Report
     row.unbounded = picture_errors(frame, references_.unbounded());
     row.picture = rgb_image_of(frame.width, frame.height, frame.radiance);
     row.display = frame.display;
-    const ReferencePicture& drawn = references_.drawn(settings, device).picture;
-    row.drawn = compare_hdr(row.picture, drawn.radiance, {.scale = &drawn.scale});
+    const ReferencePicture& rasterised = references_.rasterised(settings, device).picture;
+    row.rasterised = compare_hdr(row.picture, rasterised.radiance, {.scale = &rasterised.scale});
     if (std::ranges::any_of(view_.scene.lights, lacks_range)) {
         row.tails =
             compare_hdr(row.picture, references_.unlimited(settings, device).picture.radiance);

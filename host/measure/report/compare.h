@@ -37,7 +37,8 @@ struct ReportRow {
     double cut_off = 0.0;  // see cut_off_of()
     ReportSpeed speed;
     PictureErrors kernels, surfaces, unbounded;  // against R1, R2, R3
-    HdrMetrics drawn;  // against float64 shading of what the rasteriser drew, nothing quantised
+    HdrMetrics
+        rasterised;  // against float64 shading of what the rasteriser drew, nothing quantised
     std::optional<std::uint64_t> missed_lights;
     HdrMetrics tails;                       // where lights lack a range: against unlimited()
     std::optional<ErrorEstimate> estimate;  // see estimate_error(): against the same

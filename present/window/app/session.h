@@ -84,7 +84,7 @@ class ViewSession {
     bool is_busy() const;
     bool renders_always() const { return state_.continuous || options_.exit_after > 0; }
     bool refines() const;
-    Settled settled() const;
+    PictureState picture_state() const;
     void take_picture(const PictureRequest& request, Picture picture);
     void save_picture(const std::string& extension);
     void save_window(const std::filesystem::path& file);

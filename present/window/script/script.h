@@ -24,14 +24,14 @@ struct ScriptStep {
 /// README.md lists the steps.
 std::vector<ScriptStep> read_script(const std::filesystem::path& file);
 
-/// Whether the picture is final; `never` while it keeps changing.
-enum class Settled { yes, not_yet, never };
+/// Whether the picture is complete, or will be; `endless` while it keeps changing.
+enum class PictureState { complete, pending, endless };
 
 /// The window's functions that a script uses.
 struct ScriptStage {
     const Window& window;
     const Widgets& ui;
-    std::function<Settled()> settled;
+    std::function<PictureState()> picture_state;
     std::function<void(const std::filesystem::path&)> screenshot;
 };
 

@@ -18,7 +18,7 @@ class ScriptPlayer {
 
     bool is_done() const { return steps_.empty() && actions_.empty(); }
     /// Whether it waits for the renderer.
-    bool is_settling() const { return settling_; }
+    bool is_waiting() const { return waits_; }
 
  private:
     // Returns true when it is done; else it is called again in the next frame.
@@ -45,7 +45,7 @@ class ScriptPlayer {
     std::string place_;
     MoveEvent mouse_;
     int tries_ = 0;  // frames in which the widget was looked for
-    bool settling_ = false;
+    bool waits_ = false;
 };
 
 }  // namespace kilolux
