@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/help.h"
+#include "present/completion.h"
 
 #include <fmt/format.h>
-
 #include <vector>
 
 #include "host/base/text.h"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/help.h"
+#include "present/help_format.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <sstream>
 #include <vector>

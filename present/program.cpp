@@ -2,7 +2,6 @@
 #include "present/program.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdio>
 
@@ -12,8 +11,18 @@
 #include "host/render/renderer.h"
 #include "present/cli/commit.h"
 #include "present/cli/option_builder.h"
+#include "present/commands/assemble/assemble.h"
+#include "present/commands/bench/bench.h"
+#include "present/commands/certify/certify.h"
+#include "present/commands/export.h"
+#include "present/commands/info.h"
+#include "present/commands/merge/merge.h"
+#include "present/commands/render.h"
+#include "present/commands/report.h"
+#include "present/commands/view.h"
+#include "present/completion.h"
 #include "present/config_file.h"
-#include "present/help.h"
+#include "present/help_format.h"
 
 namespace kilolux {
 namespace {

@@ -72,15 +72,4 @@ bool is_given(const CLI::App& command, const std::string& name);
 /// Throws UsageError, with the nearest known one, for arguments that no option of `command` took.
 void refuse_extras(const CLI::App& command, const std::vector<std::string>& extras);
 
-// One function a subcommand, which registers it: commands/<name>.cpp.
-void add_render_command(Program& program);
-void add_view_command(Program& program);
-void add_bench_command(Program& program);
-void add_report_command(Program& program);
-void add_certify_command(Program& program);
-void add_info_command(Program& program);
-void add_export_command(Program& program);
-void add_assemble_command(Program& program);
-void add_merge_command(Program& program);
-
 }  // namespace kilolux

@@ -44,8 +44,8 @@ void draw_in_parts(int width, int height, const PassCost& cost, Draw draw) {
         draw();
         glFinish();
         const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-        const double drawn = static_cast<double>(columns) * rows;
-        wanted = drawn * std::min(part_s / std::max(taken.count(), 1e-6), 8.0);
+        const double pixels = static_cast<double>(columns) * rows;
+        wanted = pixels * std::min(part_s / std::max(taken.count(), 1e-6), 8.0);
         column += columns;
         if (column < width) continue;
         column = 0;

@@ -19,6 +19,20 @@ expect_red("nothing includes present" host/render/a.cpp "#include \"present/cli/
 expect_red("render does not measure" host/render/a.cpp "#include \"host/measure/metrics/metrics.h\"")
 expect_red("one room sees OpenImageIO" host/scene/a.cpp "#include <OpenImageIO/imageio.h>")
 expect_red("paths from the root" host/base/a.cpp "#include \"a.h\"")
-expect_red("a .cpp has its header" host/render/a.cpp "#include <vector>")
-expect_red("a .cpp has its header, in a folder" host/scene/gltf/a.cpp "#include <vector>")
+
+# So must header_rules.py: b.cpp defines what a.h declares.
+function(expect_stray name declaration definition)
+  file(REMOVE_RECURSE ${WORK})
+  file(WRITE ${WORK}/host/a.h "namespace kilolux {\n${declaration}\n}\n")
+  file(WRITE ${WORK}/host/b.cpp "namespace kilolux {\n${definition}\n}\n")
+  execute_process(COMMAND python3 ${HEADER_RULES} ${WORK} RESULT_VARIABLE result OUTPUT_QUIET)
+  if(NOT result EQUAL 1)
+    message(SEND_ERROR "${name}: '${definition}' was not caught")
+  endif()
+endfunction()
+expect_stray("function" "int f(int x = 0);" "int f(int x) { return x; }")
+expect_stray("member" "class A {\n public:\n    int f() const;\n};" "int A::f() const { return 0; }")
+expect_stray("constructor" "struct A {\n    explicit A(int x);\n    int x;\n};" "A::A(int x) : x(x) {}")
+expect_stray("operator" "struct A {\n    bool operator==(const A& b) const;\n};"
+  "bool A::operator==(const A& b) const { return this == &b; }")
 file(REMOVE_RECURSE ${WORK})

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Checks sizes: size_rules.py [ROOT]. Prints what is too large and exits with 1.
 
-A folder with code has at most 30 files. A call or declaration of the launchers and kernels has at
-most 8 arguments: what belongs together goes as a struct, and in kernels as a macro of arguments.
+A folder with code has at most 30 files; one of results alone has a file for each measurement. A
+call or declaration of the launchers and kernels has at most 8 arguments: what belongs together goes
+as a struct, and in kernels as a macro of arguments.
 """
 import re
 import sys

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/lighting/coarse_light_lists.h"
 
+#include "host/gpu/repeat_until_fits.h"
 #include "host/lighting/check_input.h"
 
 namespace kilolux {
@@ -15,13 +16,8 @@ CoarseLightLists::CoarseLightLists(const Gpu& gpu, const Tuning& tuning,
 
 CoarseLighting CoarseLightLists::run(const LightInput& input, const View& view,
                                      const ClusterGrid& grid, StageTimer& timer) {
-    const StageTimer before = timer;
-    CoarseLighting out = enqueue(input, view, grid, timer);
-    while (!fits(pairs())) {
-        timer = before;  // drops the times of lists that had no room
-        out = enqueue(input, view, grid, timer);
-    }
-    return out;
+    return repeat_until_fits(
+        timer, [&] { return enqueue(input, view, grid, timer); }, [&] { return fits(pairs()); });
 }
 
 CoarseLighting CoarseLightLists::enqueue(const LightInput& input, const View& view,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/lighting/deferred_lighting.h"
 
+#include "host/gpu/repeat_until_fits.h"
 #include "host/lighting/check_input.h"
 
 namespace kilolux {
@@ -28,13 +29,8 @@ Radiance DeferredLighting::enqueue(const LightingInput& input, StageTimer& timer
 bool DeferredLighting::fits(StageTimer& timer) { return light_lists_.fits(timer); }
 
 Radiance DeferredLighting::light(const LightingInput& input, StageTimer& timer) {
-    const StageTimer before = timer;
-    Radiance radiance = enqueue(input, timer);
-    while (!fits(timer)) {
-        timer = before;  // drops the times of lists that had no room
-        radiance = enqueue(input, timer);
-    }
-    return radiance;
+    return repeat_until_fits(
+        timer, [&] { return enqueue(input, timer); }, [&] { return fits(timer); });
 }
 
 ShadowCounts DeferredLighting::count_shadows(const LightingInput& input, CastShadows& counting) {

@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "host/gpu/repeat_until_fits.h"
 #include "host/lighting/check_input.h"
 
 namespace kilolux {
@@ -19,12 +20,8 @@ LightLists::LightLists(const Gpu& gpu, const Tuning& tuning, const KernelFeature
 
 ListedLights LightLists::run(const LightInput& input, const GBuffer& gbuffer,
                              const ClusterGrid& grid, StageTimer& timer) {
-    const StageTimer before = timer;
-    do {
-        timer = before;  // drops the times of lists that had no room
-        enqueue(input, gbuffer, grid, timer);
-    } while (!fits(timer));
-    return *made_;
+    return repeat_until_fits(
+        timer, [&] { return enqueue(input, gbuffer, grid, timer); }, [&] { return fits(timer); });
 }
 
 ListedLights LightLists::enqueue(const LightInput& input, const GBuffer& gbuffer,

@@ -27,14 +27,6 @@ enum class ViewKind {
     shadows
 };
 
-/// The words of the command line, in the enumeration's order.
-const std::vector<std::string>& view_names();
-const std::vector<std::string>& view_meanings();  // for --help
-const std::string& name_of(ViewKind view);
-
-/// Throws UsageError for an unknown name.
-ViewKind parse_view(std::string_view name);
-
 /// The results that a caller wants of a frame. Nothing else leaves the device.
 struct FrameRequest {
     bool display = true;            // Frame::display

@@ -26,4 +26,12 @@ struct ViewInput {
 /// renderer does not make.
 std::vector<std::uint8_t> make_view(ViewKind view, const ViewInput& input);
 
+/// The words of the command line, in the enumeration's order.
+const std::vector<std::string>& view_names();
+const std::vector<std::string>& view_meanings();  // for --help
+const std::string& name_of(ViewKind view);
+
+/// Throws UsageError for an unknown name.
+ViewKind parse_view(std::string_view name);
+
 }  // namespace kilolux

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/render/lights/light_source.h"
+
 namespace kilolux {
 namespace {
 
@@ -22,6 +24,21 @@ std::vector<Row> single_lights(std::vector<Row> rows, uint count,
 // Pixels of the band's planes.
 std::size_t plane_size(const LitBand& band) {
     return std::size_t{band.surfaces.view.stride} * band.surfaces.view.height;
+}
+
+// Adds to a probe what is known of its lights. `rows`: all lights.
+void add_lights(const RenderContext& context, const Camera& camera, const LightRows& rows,
+                PixelProbe& probe) {
+    const RenderSettings& settings = context.settings;
+    const View view = view_of(camera, settings.width, settings.height);
+    for (ProbedLight& light : probe.lights) {
+        light.light = rows.local.at(light.index);
+        light.shade = shade_light(view, light.light, light.index, tail_seed(settings, 0));
+        if (rows.profiles.empty()) continue;
+        AimedProfile row = rows.profiles.at(light.index);
+        row = {rotated(view, row.down, row.down.w), rotated(view, row.side, row.side.w)};
+        light.web = webs_in_view(std::span(&row, 1), context.scene->scene()).front();
+    }
 }
 
 }  // namespace
@@ -188,7 +205,7 @@ LitSurfaces BandReader::lit_surfaces(const LastSample& last) {
     return out;
 }
 
-PixelProbe BandReader::probe(const LastSample& last, int x, int y) {
+PixelProbe BandReader::probe(const LastSample& last, const LightRows& rows, int x, int y) {
     last.stages.draw_missing_surfaces(last.camera, last.band);
     const LitBand& band = last.band;
     PixelProbe out = surface_at(band, x, y);
@@ -203,6 +220,7 @@ PixelProbe BandReader::probe(const LastSample& last, int x, int y) {
         }
         out.coarse_count = static_cast<uint>(out.lights.size());
     }
+    add_lights(context_, last.camera, rows, out);
     return out;
 }
 

@@ -37,8 +37,8 @@ class BandReader {
     /// What was shaded, and with which lights. Throws Error for the forward renderers.
     LitSurfaces lit_surfaces(const LastSample& last);
 
-    /// What is known of a pixel; lights have only their index and whether they are seen.
-    PixelProbe probe(const LastSample& last, int x, int y);
+    /// What is known of a pixel. `rows`: all lights, relative to the last camera.
+    PixelProbe probe(const LastSample& last, const LightRows& rows, int x, int y);
 
     /// Fragments that are shaded at each pixel.
     std::vector<float> overdraw(const Camera& camera, DrawOrder order);

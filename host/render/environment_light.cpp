@@ -70,14 +70,14 @@ void EnvironmentLight::set(const RenderContext& context) {
     }
 }
 
-void EnvironmentLight::enqueue(const LitBand& band, StageTimer& timer) {
-    if (!band.surfaces.bytes.buffer()()) return;  // OpenGL drew over the picture of fill()
-    if (reflections_) reflections_->enqueue(band.surfaces, band.light, timer);
-    if (background_) background_->enqueue(band.surfaces, band.light, timer);
+void EnvironmentLight::fill_behind(const LitBand& band, StageTimer& timer) {
+    if (background_ && !band.has_surfaces()) background_->enqueue_everywhere(band.light, timer);
 }
 
-void EnvironmentLight::fill(const Radiance& radiance, StageTimer& timer) {
-    background_->enqueue_everywhere(radiance, timer);
+void EnvironmentLight::enqueue(const LitBand& band, StageTimer& timer) {
+    if (!band.has_surfaces()) return;  // OpenGL draws over the background
+    if (reflections_) reflections_->enqueue(band.surfaces, band.light, timer);
+    if (background_) background_->enqueue(band.surfaces, band.light, timer);
 }
 
 }  // namespace kilolux

@@ -23,11 +23,12 @@ class EnvironmentLight {
     /// the part that failed then keeps its former value.
     void set(const RenderContext& context);
 
-    /// Adds both to a band of the deferred renderers. Enqueues only.
-    void enqueue(const LitBand& band, StageTimer& timer);
+    /// Before shading: the background at all pixels of the light that OpenGL draws over; nothing
+    /// for the deferred renderers. Enqueues only.
+    void fill_behind(const LitBand& band, StageTimer& timer);
 
-    /// The background at all pixels, before OpenGL draws over them. Enqueues only.
-    void fill(const Radiance& radiance, StageTimer& timer);
+    /// Adds both to lit surfaces, of the deferred renderers. Enqueues only.
+    void enqueue(const LitBand& band, StageTimer& timer);
 
  private:
     std::shared_ptr<const Environment> image_;  // that background_ has

@@ -43,23 +43,25 @@ ForwardShading::ForwardShading(const RenderContext& context)
                              true)),
       radiance_(context.gpu, kForwardStage) {}
 
-Radiance ForwardShading::draw(const Sample& sample, const HostCoarseLists* lists,
-                              EnvironmentLight& environment, Measured out) {
+Radiance ForwardShading::target(const Sample& sample) {
+    const View view = view_of(sample.camera, context_.settings.width, context_.settings.height);
+    return {radiance_.reserve(std::size_t{3} * view.stride * view.height), view};
+}
+
+void ForwardShading::draw(const Sample& sample, const HostCoarseLists* lists,
+                          const Radiance& radiance, Measured out) {
     const RenderSettings& settings = context_.settings;
-    const View view = view_of(sample.camera, settings.width, settings.height);
-    const std::size_t size = std::size_t{3} * view.stride * view.height;
-    Radiance radiance{radiance_.reserve(size), view};
+    const View& view = radiance.view;
     std::vector<float> background;
     if (settings.background) {
-        environment.fill(radiance, out.timer);
-        background = download<float>(context_.gpu, radiance.planes, size);
+        background = download<float>(context_.gpu, radiance.planes,
+                                     std::size_t{3} * view.stride * view.height);
     }
     pass_.draw(sample.camera, settings.width, settings.height,
                forward_lights(sample, settings.ambient, lists), background);
-    const std::vector<float> drawn = pass_.read_radiance(view.stride);
+    const std::vector<float> lit = pass_.read_radiance(view.stride);
     out.timer.record_host(lists ? kForwardPlusStage : kForwardStage, pass_.last_ms());
-    upload<float>(context_.gpu, radiance.planes, drawn);
-    return radiance;
+    upload<float>(context_.gpu, radiance.planes, lit);
 }
 
 BlendedPass::BlendedPass(const RenderContext& context, bool clustered)
@@ -74,9 +76,9 @@ void BlendedPass::draw(const Sample& sample, const Radiance& radiance,
         download<float>(context_.gpu, radiance.planes, std::size_t{3} * view.stride * view.height);
     pass_.draw_blended(crop(sample.camera, settings.height, sample.band), view, targets, planes,
                        forward_lights(sample, settings.ambient, lists));
-    const std::vector<float> drawn = pass_.read_radiance(view.stride);
+    const std::vector<float> lit = pass_.read_radiance(view.stride);
     out.timer.record_host(kBlendedStage, pass_.last_ms());
-    upload<float>(context_.gpu, radiance.planes, drawn);
+    upload<float>(context_.gpu, radiance.planes, lit);
 }
 
 }  // namespace kilolux

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/render/environment_light.h"
 #include "host/render/lit_band.h"
 #include "host/render/render_context.h"
 #include "raster/forward_pass.h"
@@ -28,9 +27,12 @@ class ForwardShading {
  public:
     explicit ForwardShading(const RenderContext& context);
 
-    /// Radiance before the environment's background. `lists`: null for every light. Blocks.
-    Radiance draw(const Sample& sample, const HostCoarseLists* lists, EnvironmentLight& environment,
-                  Measured out);
+    /// Room for the picture's radiance, and for the background that draw() draws over.
+    Radiance target(const Sample& sample);
+
+    /// Draws over the settings' background in `radiance`. `lists`: null for every light. Blocks.
+    void draw(const Sample& sample, const HostCoarseLists* lists, const Radiance& radiance,
+              Measured out);
 
  private:
     const RenderContext& context_;

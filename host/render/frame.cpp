@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/render/frame.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <chrono>
 #include <utility>
@@ -52,23 +53,6 @@ Sample make_sample(Pipeline& p, const Shot& shot, LightInput lights, const Band&
     return out;
 }
 
-// Runs the stages over the whole picture, tone maps its light and reads it back.
-void develop(Pipeline& p, const Radiance& light, Frame& frame) {
-    const Radiance shown = p.picture.finished(light, p.timer);
-    p.picture.read_light(shown, frame.shown_light, p.timer);
-    const std::optional<DisplayTarget> display = p.picture.tonemap(shown, p.timer);
-    if (display) p.picture.read_display(*display, p.timer);
-}
-
-// Tone maps a band and reads it back; if stages over the whole picture follow, only keeps its light
-// for them.
-void develop_band(Pipeline& p, const std::optional<DisplayTarget>& shaded, const Radiance& light,
-                  Frame& frame) {
-    if (shaded) return p.picture.read_display(*shaded, p.timer);
-    p.picture.read_light(light, frame.radiance, p.timer);
-    if (!p.picture.keep_for_whole(light)) develop(p, light, frame);
-}
-
 // Reads a band's AOVs, and its surfaces if a view needs them.
 void add_pixels(Pipeline& p, const Shot& shot, SharedPicture& picture) {
     const FrameRequest& want = p.context.settings.want;
@@ -93,10 +77,11 @@ void add_pixels(Pipeline& p, const Shot& shot, SharedPicture& picture) {
     }
 }
 
-// Replaces the lit picture by the view that is asked for.
-void show_view(Pipeline& p, const Shot& shot, const DecodedSurfaces& surfaces, Frame& frame) {
-    const ViewKind view = p.context.settings.want.view;
-    if (view == ViewKind::lit) return;
+// Replaces the lit picture by the view that is asked for. Radiance that only views need goes.
+void show_view(Pipeline& p, const Shot& shot, SharedPicture& picture) {
+    const FrameRequest& want = p.context.settings.want;
+    const ViewKind view = want.view;
+    Frame& frame = picture.frame;
     std::vector<float> fragments, reference_light;
     if (view == ViewKind::overdraw) {
         fragments = p.reader.overdraw(shot.camera, DrawOrder::front_to_back);
@@ -104,8 +89,11 @@ void show_view(Pipeline& p, const Shot& shot, const DecodedSurfaces& surfaces, F
     if (view == ViewKind::difference) {
         reference_light = render_frame(*p.reference, {shot.camera, shot.time}).radiance;
     }
-    frame.display = make_view(view, {surfaces, shot.camera, p.context.scene->box(), fragments,
-                                     frame.radiance, reference_light});
+    if (view != ViewKind::lit) {
+        frame.display = make_view(view, {picture.surfaces, shot.camera, p.context.scene->box(),
+                                         fragments, frame.radiance, reference_light});
+    }
+    if (!want.radiance) frame.radiance.clear();
 }
 
 // Gives the frame memory for the pixels of these rows.
@@ -130,11 +118,11 @@ LightInput begin(Pipeline& p, const Shot& shot, Frame& frame, FrameStats& stats)
                          context.scene->scene().revisions};
     // OpenGL's targets still hold the tile of the last rows, which further rows of the same picture
     // need. Background and results that are asked for do not change it.
-    PictureKey drawn = key;
-    drawn.settings.background.reset();
-    drawn.settings.want = {};
-    if (!shot.rows || !(drawn == p.last.drawn)) p.last.raster_tile = -1;
-    p.last.drawn = std::move(drawn);
+    PictureKey opengl = key;
+    opengl.settings.background.reset();
+    opengl.settings.want = {};
+    if (!shot.rows || !(opengl == p.last.opengl)) p.last.raster_tile = -1;
+    p.last.opengl = std::move(opengl);
     p.samples.begin(key, context.is_whole() ? shot.samples : 0);
     p.picture.begin(shot.display, frame, shot.rows.has_value());
     stats.zero_normals = context.scene->zero_normals();
@@ -143,46 +131,60 @@ LightInput begin(Pipeline& p, const Shot& shot, Frame& frame, FrameStats& stats)
     return lights;
 }
 
-// Renders each band sample by sample: lights -> surfaces -> lists -> visibility -> shading ->
-// environment -> picture. Repeats the stages whose results had no room.
-void render_bands(Pipeline& p, const Shot& shot, SharedPicture& picture, FrameStats& total) {
-    Frame& frame = picture.frame;
-    const LightInput lights = begin(p, shot, frame, total);
+// Renders a band sample by sample, in the order of a frame; begin() has placed the lights. Repeats
+// the stages whose results had no room.
+void render_band(Pipeline& p, const Shot& shot, const LightInput& lights, const Band& band,
+                 Frame& frame, Measured out) {
     FrameStages& stages = p.current_stages();
     LitBand& lit = p.last.band;
     const bool is_one = p.samples.is_one() && !stages.blends();
+    p.samples.begin_band();
+    while (const auto next = p.samples.next()) {
+        check_interrupt();
+        const Sample sample = make_sample(p, shot, lights, band, *next);
+        StageTimer before = p.timer;
+        Room room;
+        while (!room.enough()) {
+            p.timer.drop_commands_since(before);  // stages that lacked room
+            lit.drop_lists();
+            if (!room.surfaces) stages.draw_surfaces(sample, lit, out);
+            const StageTimer with_surfaces = p.timer;
+            stages.list_lights(sample, lit, out);
+            stages.find_visible(lit, out);
+            p.environment.fill_behind(lit, p.timer);
+            stages.shade(sample, lit, out);
+            p.environment.enqueue(lit, p.timer);
+            if (is_one) {
+                p.picture.bloom(lit, p.timer);
+                p.picture.tonemap(lit, p.timer);
+                p.picture.read(lit, frame, p.timer);
+            }
+            room = stages.room(lit, out);  // waits for the device
+            if (room.surfaces) before = with_surfaces;
+        }
+        p.reader.count({lit, stages, sample.camera}, out.stats);
+        stages.blend(sample, lit, out);
+        out.stats.shaded_display = sample.display.has_value();
+        if (!p.samples.is_one()) p.samples.add(lit.light, out);
+    }
+    if (!is_one) {
+        lit.light = p.samples.mean(lit.light, p.timer);
+        p.picture.bloom(lit, p.timer);
+        p.picture.tonemap(lit, p.timer);
+        p.picture.read(lit, frame, p.timer);
+    }
+    p.picture.finish(p.timer, out.stats);
+}
+
+void render_bands(Pipeline& p, const Shot& shot, SharedPicture& picture, FrameStats& total) {
+    Frame& frame = picture.frame;
+    const LightInput lights = begin(p, shot, frame, total);
     const int height = p.context.settings.height;
     const Band rows = shot.rows.value_or(Band{0, height});
     for (const Band& band : make_bands(height, p.context.memory.band_rows, rows)) {
         const Clock::time_point start = Clock::now();
         FrameStats stats;
-        const Measured out{p.timer, stats};
-        p.samples.begin_band();
-        while (const auto next = p.samples.next()) {
-            check_interrupt();
-            const Sample sample = make_sample(p, shot, lights, band, *next);
-            StageTimer before = p.timer;
-            Room room;
-            while (!room.enough()) {
-                p.timer.drop_commands_since(before);  // stages that lacked room
-                lit.drop_lists();
-                if (!room.surfaces) stages.draw_surfaces(sample, lit, out);
-                const StageTimer with_surfaces = p.timer;
-                stages.list_lights(sample, lit, out);
-                stages.find_visible(lit, out);
-                stages.shade(sample, lit, p.environment, out);
-                p.environment.enqueue(lit, p.timer);
-                if (is_one) develop_band(p, sample.display, lit.light, frame);
-                room = stages.room(lit, out);  // waits for the device
-                if (room.surfaces) before = with_surfaces;
-            }
-            p.reader.count({lit, stages, sample.camera}, stats);
-            stages.blend(sample, lit, out);
-            stats.shaded_display = sample.display.has_value();
-            if (!p.samples.is_one()) p.samples.add(lit.light, out);
-        }
-        if (!is_one) develop_band(p, {}, p.samples.mean(lit.light, p.timer), frame);
-        p.picture.finish(p.timer, stats);
+        render_band(p, shot, lights, band, frame, {p.timer, stats});
         add_band(total, stats);
         total.frame_ms += std::max(0.0, ms_since(start) - stats.build_ms);
         add_pixels(p, shot, picture);
@@ -192,18 +194,15 @@ void render_bands(Pipeline& p, const Shot& shot, SharedPicture& picture, FrameSt
     }
 }
 
-// Does what needs all rows: stages over the whole picture, and views.
-void finish(Pipeline& p, const Shot& shot, SharedPicture& picture, FrameStats& stats) {
-    Frame& frame = picture.frame;
+// Runs the stages over the whole picture, for rows that several renderers made.
+void finish_light(Pipeline& p, Frame& frame, FrameStats& stats) {
     const Clock::time_point start = Clock::now();
-    if (const auto light = p.picture.whole_light(shot.camera, frame)) {
-        develop(p, *light, frame);
-        const double built_ms = stats.build_ms;
-        p.picture.finish(p.timer, stats);
-        stats.frame_ms += ms_since(start) - (stats.build_ms - built_ms);
-    }
-    show_view(p, shot, picture.surfaces, frame);
-    if (!p.context.settings.want.radiance) frame.radiance.clear();
+    LitBand all;
+    p.picture.bloom_rows(frame, all, p.timer);
+    p.picture.tonemap(all, p.timer);
+    p.picture.read(all, frame, p.timer);
+    p.picture.finish(p.timer, stats);
+    stats.frame_ms += ms_since(start) - stats.build_ms;
 }
 
 Frame make_frame(Pipeline& p, const Shot& shot) {
@@ -211,7 +210,7 @@ Frame make_frame(Pipeline& p, const Shot& shot) {
     const QueueDrain drain(p.context.gpu.queue);
     allocate(p, {0, p.context.settings.height}, !shot.display.empty(), false, picture.frame);
     render_bands(p, shot, picture, picture.frame.stats);
-    finish(p, shot, picture, picture.frame.stats);
+    show_view(p, shot, picture);
     p.samples.keep();
     return std::move(picture.frame);
 }
@@ -245,6 +244,32 @@ Frame render_strip(Pipeline& pipeline, const Shot& shot) {
     });
 }
 
+Frame render_crop(Pipeline& pipeline, const Shot& shot, const PixelRect& rect) {
+    const RenderContext& context = pipeline.context;
+    const RenderSettings& s = context.settings;
+    const bool is_inside = rect.x >= 0 && rect.y >= 0 && rect.width > 0 && rect.height > 0 &&
+                           rect.width <= s.width - rect.x && rect.height <= s.height - rect.y;
+    if (!is_inside) {
+        throw Error(fmt::format("render: no crop {},{},{},{} of a picture of {}x{} pixels", rect.x,
+                                rect.y, rect.width, rect.height, s.width, s.height));
+    }
+    Frame out;
+    if (!can_make_strips(s)) {
+        add_crop(out, rect, render_frame(pipeline, shot));
+        return out;
+    }
+    const int least = context.memory.least_rows;
+    const int last = rect.y + rect.height - 1;
+    const int end = std::min(s.height, (last / least + 1) * least);
+    const int rows = std::max(least, context.memory.strip_rows / least * least);
+    for (int row = rect.y / least * least; row < end; row += rows) {
+        Shot strip = shot;
+        strip.rows = {row, std::min(rows, end - row)};
+        add_crop(out, rect, render_strip(pipeline, strip));
+    }
+    return out;
+}
+
 std::unique_ptr<SharedPicture> begin_rows(const Pipeline& pipeline) {
     auto picture = std::make_unique<SharedPicture>();
     allocate(pipeline, {0, pipeline.context.settings.height}, false, true, picture->frame);
@@ -269,7 +294,10 @@ FrameStats finish_rows(Pipeline& pipeline, const Shot& shot, SharedPicture& pict
         pipeline.context.scene->take_up_changes();
         pipeline.timer = StageTimer();
         pipeline.picture.begin({}, picture.frame, true);
-        finish(pipeline, shot, picture, stats);
+        if (needs_whole_picture(pipeline.context.settings)) {
+            finish_light(pipeline, picture.frame, stats);
+        }
+        show_view(pipeline, shot, picture);
         return stats;
     });
 }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "host/picture/crop.h"
 #include "host/picture/shared_picture.h"
 #include "host/render/pipeline.h"
 
@@ -25,9 +26,10 @@ struct Shot {
 /// Renders a frame: see Renderer::render().
 Frame render_frame(Pipeline& pipeline, const Shot& shot);
 
-/// See Renderer::begin_rows(), render_strip(), render_rows() and finish_rows().
+/// See the functions of Renderer with these names.
 std::unique_ptr<SharedPicture> begin_rows(const Pipeline& pipeline);
 Frame render_strip(Pipeline& pipeline, const Shot& shot);
+Frame render_crop(Pipeline& pipeline, const Shot& shot, const PixelRect& rect);
 FrameStats render_rows(Pipeline& pipeline, const Shot& shot, SharedPicture& picture);
 FrameStats finish_rows(Pipeline& pipeline, const Shot& shot, SharedPicture& picture);
 

@@ -41,7 +41,10 @@ void FrameStages::draw_surfaces(const Sample& sample, LitBand& band, Measured ou
     band.grid = context_.coarse_grid(sample.camera);
     std::ranges::copy(std::array{band.grid.tiles_x, band.grid.tiles_y, band.grid.slices},
                       out.stats.grid);
-    if (forward_) return;
+    if (forward_) {
+        band.light = forward_->target(sample);
+        return;
+    }
     band.surfaces = surfaces_->enqueue(sample, out);
     band.shadows = surfaces_->shadows(sample);
 }
@@ -51,7 +54,9 @@ void FrameStages::list_lights(const Sample& sample, LitBand& band, Measured out)
     if (!coarse_) return;
     const View view =
         view_of(sample.camera, context_.settings.width, context_.settings.height, sample.band);
-    band.coarse = coarse_->download(coarse_->run(sample.lights, view, band.grid, out.timer));
+    const CoarseLighting coarse = coarse_->enqueue(sample.lights, view, band.grid, out.timer);
+    has_coarse_ = coarse_->fits(coarse_->pairs());
+    if (has_coarse_) band.coarse = coarse_->download(coarse);
 }
 
 void FrameStages::find_visible(LitBand& band, Measured out) {
@@ -60,27 +65,27 @@ void FrameStages::find_visible(LitBand& band, Measured out) {
     band.visible = visibility_->enqueue(band.lists, band.surfaces, band.shadows, out.timer);
 }
 
-void FrameStages::shade(const Sample& sample, LitBand& band, EnvironmentLight& environment,
-                        Measured out) {
+void FrameStages::shade(const Sample& sample, LitBand& band, Measured out) {
     const float ambient = context_.settings.ambient;
     if (shade_) {
         shade_->set_ambient(ambient);
         band.light = shade_->enqueue(band.lists.at(band.surfaces), out.timer, band.visible.words,
                                      band.visible.samples, sample.display);
+        band.display = sample.display;
     } else if (shade_all_) {
         shade_all_->set_ambient(ambient);
         band.light =
             shade_all_->enqueue({band.surfaces, band.lights, band.grid, band.shadows}, out.timer);
-    } else {
-        band.light = forward_->draw(sample, coarse_ ? &band.coarse : nullptr, environment, out);
+    } else if (has_coarse_) {
+        forward_->draw(sample, coarse_ ? &band.coarse : nullptr, band.light, out);
     }
 }
 
 Room FrameStages::room(const LitBand& band, Measured out) {
     Room out_room;
-    out_room.lists = !lists_ || lists_->fits(out.timer);
+    out_room.lists = lists_ ? lists_->fits(out.timer) : has_coarse_;
     out_room.surfaces = forward_ || surfaces_->fits(out.stats);
-    if (coarse_) out.stats.coarse_pairs = band.coarse.offsets.back();
+    if (coarse_ && has_coarse_) out.stats.coarse_pairs = band.coarse.offsets.back();
     if (lists_) static_cast<PairCounts&>(out.stats) = lists_->counts();
     return out_room;
 }

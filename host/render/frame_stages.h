@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "host/lighting/deferred_lighting.h"
-#include "host/render/environment_light.h"
 #include "host/render/forward_shading.h"
 #include "host/render/lit_band.h"
 #include "host/render/surface_pass.h"
@@ -41,7 +40,7 @@ class FrameStages {
     void find_visible(LitBand& band, Measured out);
 
     /// Radiance, or with sample.display the display picture.
-    void shade(const Sample& sample, LitBand& band, EnvironmentLight& environment, Measured out);
+    void shade(const Sample& sample, LitBand& band, Measured out);
 
     /// Which of the last calls had room; the others must run again, and then have it. Waits for the
     /// device where stages count what they need. Sets the counts of lists.
@@ -71,6 +70,7 @@ class FrameStages {
     std::optional<SurfacePass> surfaces_;  // of the forward renderers when first asked for
     std::optional<LightLists> lists_;
     std::optional<CoarseLightLists> coarse_;
+    bool has_coarse_ = true;  // the last lists of coarse_ had room
     std::optional<Visibility> visibility_;
     std::optional<Shade> shade_;
     std::optional<AllLightsLighting> shade_all_;

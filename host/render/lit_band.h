@@ -39,15 +39,21 @@ struct LitBand {
     ShadowInput shadows;  // that are cast onto the surfaces
     LightInput lights;
     ClusterGrid grid{};
-    ListedLights lists;      // of `deferred`
-    HostCoarseLists coarse;  // of `forward-plus`
-    SeenLights visible;      // with shadows, of `deferred`
-    Radiance light;
+    ListedLights lists;             // of `deferred`
+    HostCoarseLists coarse;         // of `forward-plus`
+    SeenLights visible;             // with shadows, of `deferred`
+    Radiance light;                 // of the forward renderers before shading: the background
+    std::optional<Radiance> shown;  // after the stages over the whole picture
+    std::optional<DisplayTarget> display;  // the picture of `shown`, or made by shading
 
-    /// Arrays that grow must not be held twice.
+    bool has_surfaces() const { return surfaces.bytes.buffer()() != nullptr; }
+
+    /// Forgets what is made of the surfaces: arrays that grow must not be held twice.
     void drop_lists() {
         lists = {};
         visible = {};
+        shown.reset();
+        display.reset();
     }
 };
 

@@ -52,11 +52,7 @@ void PictureOutput::begin(DisplayMemory memory, Frame& frame, bool by_rows) {
     by_rows_ = by_rows;
     first_row_ = static_cast<uint>(frame.first_row);
     display_ = {reinterpret_cast<uint*>(frame.display.data()), frame.display.size() / sizeof(uint)};
-    if (waits_for_bands() && !by_rows) {
-        const RenderSettings& settings = context_.settings;
-        const View view = view_of(Camera{}, settings.width, settings.height);
-        whole_light_.reserve(std::size_t{3} * view.stride * view.height);
-    }
+    if (waits_for_bands() && !by_rows) whole_light();  // before bands take memory
 }
 
 // A CPU device's kernels write to the caller's memory themselves.
@@ -68,50 +64,62 @@ DisplayTarget PictureOutput::target(const View& view) {
     return tonemap_.target({pixels, memory_.size()}, view, exposure);
 }
 
-bool PictureOutput::keep_for_whole(const Radiance& light) {
-    if (!waits_for_bands()) return false;
-    if (by_rows_) return true;  // it is read
+// Room for the light of all bands.
+Radiance PictureOutput::whole_light() {
+    const RenderSettings& settings = context_.settings;
+    const View view = view_of(Camera{}, settings.width, settings.height);
+    return {whole_light_.reserve(std::size_t{3} * view.stride * view.height), view};
+}
+
+void PictureOutput::keep(const Radiance& light) {
     const View& view = light.view;
     const std::size_t row = sizeof(float) * view.stride;
     context_.gpu.queue.enqueueCopyBufferRect(
         light.planes, whole_light_.get().buffer(), {0, 0, 0}, {0, view.first_row, 0},
         {row, view.height, 3}, row, row * view.height, row,
         row * static_cast<std::size_t>(context_.settings.height));
-    return true;
 }
 
-std::optional<Radiance> PictureOutput::whole_light(const Camera& camera, const Frame& frame) {
-    if (!waits_for_bands()) return {};
+void PictureOutput::bloom(LitBand& band, StageTimer& timer) {
     const RenderSettings& settings = context_.settings;
-    const View view = view_of(camera, settings.width, settings.height);
-    if (by_rows_) upload(frame, view);
-    return Radiance{whole_light_.get(), view};
+    if (band.display) return;  // shading has made it
+    Radiance light = band.light;
+    if (waits_for_bands()) {
+        if (by_rows_) return;
+        keep(light);
+        const View& view = light.view;
+        if (view.first_row + view.height < static_cast<uint>(settings.height)) return;
+        light = whole_light();
+    }
+    band.shown = stages_.enqueue(light, settings, timer);
 }
 
-void PictureOutput::upload(const Frame& frame, const View& view) {
+void PictureOutput::bloom_rows(const Frame& frame, LitBand& band, StageTimer& timer) {
+    const Radiance light = whole_light();
+    const View& view = light.view;
     const std::size_t size = std::size_t{view.stride} * view.height;
-    whole_light_.reserve(3 * size);
     std::vector<float> plane(size);
     for (std::size_t c = 0; c < 3; ++c) {
         for (std::size_t y = 0; y < view.height; ++y) {
             const float* row = &frame.radiance[3 * y * view.width + c];
             for (std::size_t x = 0; x < view.width; ++x) plane[y * view.stride + x] = row[3 * x];
         }
-        context_.gpu.queue.enqueueWriteBuffer(whole_light_.get().buffer(), CL_TRUE,
-                                              sizeof(float) * c * size, sizeof(float) * size,
-                                              plane.data());
+        context_.gpu.queue.enqueueWriteBuffer(light.planes, CL_TRUE, sizeof(float) * c * size,
+                                              sizeof(float) * size, plane.data());
     }
+    band.shown = stages_.enqueue(light, context_.settings, timer);
 }
 
-Radiance PictureOutput::finished(const Radiance& light, StageTimer& timer) {
-    return stages_.enqueue(light, context_.settings, timer);
+void PictureOutput::tonemap(LitBand& band, StageTimer& timer) {
+    if (!band.shown || (memory_.empty() && display_.empty())) return;
+    band.display = target(band.shown->view);
+    tonemap_.enqueue(*band.shown, *band.display, timer, backdrop_);
 }
 
-std::optional<DisplayTarget> PictureOutput::tonemap(const Radiance& light, StageTimer& timer) {
-    if (memory_.empty() && display_.empty()) return {};
-    const DisplayTarget display = target(light.view);
-    tonemap_.enqueue(light, display, timer, backdrop_);
-    return display;
+void PictureOutput::read(const LitBand& band, Frame& frame, StageTimer& timer) {
+    if (band.light.planes.buffer()()) read_light(band.light, frame.radiance, timer);
+    if (band.shown) read_light(*band.shown, frame.shown_light, timer);
+    if (band.display) read_display(*band.display, timer);
 }
 
 void PictureOutput::read_light(const Radiance& light, std::vector<float>& to, StageTimer& timer) {

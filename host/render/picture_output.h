@@ -38,21 +38,18 @@ class PictureOutput {
     /// Where shading puts the band's display picture.
     DisplayTarget target(const View& view);
 
-    /// Keeps the band's light if a stage needs all bands. Returns whether it did.
-    bool keep_for_whole(const Radiance& light);
-    /// The light that keep_for_whole() kept, or of all rows; none where no stage needs it.
-    std::optional<Radiance> whole_light(const Camera& camera, const Frame& frame);
+    /// band.shown: the light after the stages over the whole picture. Where these are on, only the
+    /// last band has it, that of all bands, and rows have none. Enqueues only.
+    void bloom(LitBand& band, StageTimer& timer);
 
-    /// The light after the stages over the whole picture.
-    Radiance finished(const Radiance& light, StageTimer& timer);
+    /// The same of all rows of a picture that is made by rows. Blocks.
+    void bloom_rows(const Frame& frame, LitBand& band, StageTimer& timer);
 
-    /// The display picture of the light; none where it is not wanted.
-    std::optional<DisplayTarget> tonemap(const Radiance& light, StageTimer& timer);
+    /// band.display: the display picture of band.shown, where it is wanted. Enqueues only.
+    void tonemap(LitBand& band, StageTimer& timer);
 
-    /// Enqueues the reads that the frame wants of the light, before and after these stages, and of
-    /// the display picture.
-    void read_light(const Radiance& light, std::vector<float>& to, StageTimer& timer);
-    void read_display(const DisplayTarget& display, StageTimer& timer);
+    /// Enqueues the reads that the frame wants of the band.
+    void read(const LitBand& band, Frame& frame, StageTimer& timer);
 
     /// Waits for the reads, which fill the frame. Adds their time to the frame's stages.
     void finish(StageTimer& timer, FrameStats& stats);
@@ -68,7 +65,10 @@ class PictureOutput {
     bool waits_for_bands() const {
         return needs_whole_picture(context_.settings) && (by_rows_ || !context_.is_whole());
     }
-    void upload(const Frame& frame, const View& view);
+    Radiance whole_light();
+    void keep(const Radiance& light);
+    void read_light(const Radiance& light, std::vector<float>& to, StageTimer& timer);
+    void read_display(const DisplayTarget& display, StageTimer& timer);
     View in_frame(View view) const;
 
     const RenderContext& context_;

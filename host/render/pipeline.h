@@ -40,7 +40,7 @@ struct Pipeline {
         Camera camera;
         LightRows rows;  // where OpenGL's fragments are lit
         LitBand band;
-        PictureKey drawn;      // by OpenGL
+        PictureKey opengl;     // of the picture in its targets
         int raster_tile = -1;  // first row of the one that OpenGL's targets hold; -1: none
         bool is_sound = true;  // no frame has failed
     };

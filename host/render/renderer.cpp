@@ -21,21 +21,6 @@ void require_whole(const Pipeline& pipeline, const char* what) {
         pipeline.context.memory.band_rows));
 }
 
-// Adds to a probe what is known of its lights.
-void add_lights(Pipeline& pipeline, PixelProbe& probe) {
-    const RenderSettings& settings = pipeline.context.settings;
-    const Camera& camera = pipeline.last.camera;
-    const View view = view_of(camera, settings.width, settings.height);
-    const LightRows rows = pipeline.lights.rows(camera.position);
-    for (ProbedLight& light : probe.lights) {
-        light.light = rows.local.at(light.index);
-        light.shade = shade_light(view, light.light, light.index, tail_seed(settings, 0));
-        if (rows.profiles.empty()) continue;
-        const AimedProfile row = aimed_in_view(view, rows.profiles.at(light.index));
-        light.web = webs_in_view(std::span(&row, 1), pipeline.context.scene->scene()).front();
-    }
-}
-
 }  // namespace
 
 std::vector<DeviceInfo> list_devices() {
@@ -105,27 +90,9 @@ Frame Renderer::render_strip(const Camera& camera, double time, Band rows) {
 }
 
 Frame Renderer::render_crop(const Camera& camera, double time, const PixelRect& rect) {
-    const RenderSettings& s = settings();
-    const bool is_inside = rect.x >= 0 && rect.y >= 0 && rect.width > 0 && rect.height > 0 &&
-                           rect.width <= s.width - rect.x && rect.height <= s.height - rect.y;
-    if (!is_inside) {
-        throw Error(fmt::format("render: no crop {},{},{},{} of a picture of {}x{} pixels", rect.x,
-                                rect.y, rect.width, rect.height, s.width, s.height));
-    }
-    Frame out;
-    if (!can_make_strips(s)) {
-        add_crop(out, rect, render(camera, time));
-        return out;
-    }
-    const int least = memory().least_rows;
-    const int last = rect.y + rect.height - 1;
-    const int end = std::min(s.height, (last / least + 1) * least);
-    const int rows = std::max(least, memory().strip_rows / least * least);
-    for (int row = rect.y / least * least; row < end; row += rows) {
-        const Band strip{row, std::min(rows, end - row)};
-        add_crop(out, rect, render_strip(camera, time, strip));
-    }
-    return out;
+    return in_stage("render", [&] {
+        return kilolux::render_crop(*pipeline_, {camera, time}, rect);
+    });
 }
 
 std::vector<Band> Renderer::strips() const {
@@ -172,9 +139,8 @@ PixelProbe Renderer::probe(int x, int y) {
     require_whole(*pipeline_, "probe");
     pipeline_->context.scene->make_current();
     return in_stage("probe", [&] {
-        PixelProbe out = pipeline_->reader.probe(pipeline_->last_sample(), x, y);
-        add_lights(*pipeline_, out);
-        return out;
+        const LightRows rows = pipeline_->lights.rows(pipeline_->last.camera.position);
+        return pipeline_->reader.probe(pipeline_->last_sample(), rows, x, y);
     });
 }
 

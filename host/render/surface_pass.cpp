@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "host/base/log.h"
+#include "host/gpu/repeat_until_fits.h"
 
 namespace kilolux {
 namespace {
@@ -111,11 +112,8 @@ bool SurfacePass::fits(FrameStats& stats) {
 }
 
 GBuffer SurfacePass::draw(const Sample& sample, Measured out) {
-    GBuffer gbuffer;
-    do {
-        gbuffer = enqueue(sample, out);
-    } while (!fits(out.stats));
-    return gbuffer;
+    return repeat_until_fits(
+        out.timer, [&] { return enqueue(sample, out); }, [&] { return fits(out.stats); });
 }
 
 GBuffer SurfacePass::draw_planes(const Sample& sample, Measured out) {
@@ -166,10 +164,10 @@ GBuffer SurfacePass::draw_in_opencl(const Sample& sample, Measured out) {
     return resolve(ids, scene, view, sample, out);
 }
 
-GBuffer SurfacePass::resolve(const DeviceArray<uint>& drawn, const SurfaceBuffers& scene,
+GBuffer SurfacePass::resolve(const DeviceArray<uint>& all_ids, const SurfaceBuffers& scene,
                              const View& view, const Sample& sample, Measured out) {
     const DeviceArray<uint> ids =
-        sample.needed ? mask_->enqueue(sample.needed->done, view, drawn, out.timer) : drawn;
+        sample.needed ? mask_->enqueue(sample.needed->done, view, all_ids, out.timer) : all_ids;
     GBuffer gbuffer = resolve_->enqueue(
         ids, scene, make_gbuffer_layout(context_.plan.gbuffer, view.stride, view.height), view,
         out.timer);

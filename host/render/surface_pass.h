@@ -57,7 +57,7 @@ class SurfacePass {
     GBuffer draw_planes(const Sample& sample, Measured out);
     GBuffer draw_ids(const Sample& sample, Measured out);
     GBuffer draw_in_opencl(const Sample& sample, Measured out);
-    GBuffer resolve(const DeviceArray<uint>& drawn, const SurfaceBuffers& scene, const View& view,
+    GBuffer resolve(const DeviceArray<uint>& all_ids, const SurfaceBuffers& scene, const View& view,
                     const Sample& sample, Measured out);
     void count(const DeviceArray<uint>& ids, const SurfaceBuffers& scene, const View& view,
                FrameStats& stats);

@@ -220,8 +220,4 @@ void AnimatedScene::set_meshes(std::vector<Mesh> meshes) {
     if (has_changed) ++scene_.revisions.geometry;
 }
 
-Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) {
-    return AnimatedScene(file, options).take();
-}
-
 }  // namespace kilolux

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "host/gpu/repeat_until_fits.h"
+
 namespace kilolux {
 namespace {
 
@@ -52,11 +54,8 @@ bool TriangleIds::fits() {
 
 DeviceArray<uint> TriangleIds::draw(const SurfaceBuffers& scene, std::span<const Draw> draws,
                                     const View& view, StageTimer& timer, const OpenTiles* open) {
-    DeviceArray<uint> ids;
-    do {
-        ids = enqueue(scene, draws, view, timer, open);
-    } while (!fits());
-    return ids;
+    return repeat_until_fits(
+        timer, [&] { return enqueue(scene, draws, view, timer, open); }, [&] { return fits(); });
 }
 
 }  // namespace kilolux

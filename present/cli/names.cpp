@@ -7,6 +7,7 @@
 #include "host/measure/bench/sweep.h"
 #include "host/measure/metrics/error_metrics.h"
 #include "host/picture/aovs.h"
+#include "host/picture/views.h"
 
 namespace kilolux {
 Choices::Choices(std::initializer_list<std::pair<std::string, std::string>> described) {

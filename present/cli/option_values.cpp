@@ -2,14 +2,13 @@
 #include "present/cli/option_values.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "host/base/error.h"
 #include "host/base/formats/srgb.h"
 #include "host/base/suggest.h"
-#include "present/cli/array_task.h"
+#include "present/cli/sequence.h"
 
 namespace kilolux {
 namespace {

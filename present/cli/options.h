@@ -55,40 +55,9 @@ struct SharedOptions {
     bool operator==(const SharedOptions&) const = default;
 };
 
-/// Options of commands that write pictures.
-struct OutputOptions {
-    Encoding encoding;
-    std::filesystem::path output;
-    OcioOptions ocio;
-    std::optional<FrameList> frames;
-    double frames_per_second = 24.0;
-    Shard shard;
-    std::optional<PixelRect> crop;
-    std::optional<TileGrid> tiles;
-    std::optional<double> turntable;    // [degree] over the frames
-    std::filesystem::path camera_keys;  // empty: none
-    bool skip_existing = false;
-    std::string stats;  // file, "-" for stdout, empty: none
-    std::string reference;
-    std::optional<double> threshold;
-    std::string metric = "rmse";
-    std::filesystem::path difference;  // empty: none
-    bool mixed_devices = false;
-    bool operator==(const OutputOptions&) const = default;
-};
-
-/// Width and height of what is written of the picture [pixel].
-std::pair<int, int> written_size(const RenderSettings& settings,
-                                 const std::optional<PixelRect>& crop);
-
-/// The extensions of pictures and videos.
-std::vector<std::string> output_extensions();
-
 /// Calls `visit` with each option and its value in `options`, in the order of --help. The one list
 /// of them: see Setting.
 void visit_settings(SharedOptions& options, const SettingVisitor& visit);
-void visit_picture_settings(SharedOptions& options, const SettingVisitor& visit);  // a part of it
-void visit_settings(OutputOptions& options, const SettingVisitor& visit);
 
 /// The settings that differ from the same rows of the defaults and change `least` or more, as words
 /// for a shell: " --lights 77 --rig none". Leaves out the scene and the options of printing.
@@ -101,8 +70,5 @@ void add_shared_options(CLI::App& command, SharedOptions& options);
 /// Sets the verbosity. Throws UsageError for shared options that exclude or need each other, Error
 /// for an environment file that is not there; `compares`: the command line has --reference.
 void begin_command(const SharedOptions& options, bool compares = false);
-
-/// Throws UsageError for options that exclude or need each other.
-void check_output_options(const SharedOptions& shared, const OutputOptions& options);
 
 }  // namespace kilolux

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
+#include "present/cli/output_options.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 
 #include "host/base/error.h"
 #include "host/base/suggest.h"
 #include "host/render/plan/memory_plan.h"
-#include "present/cli/array_task.h"
 #include "present/cli/option_builder.h"
-#include "present/cli/options.h"
+#include "present/cli/sequence.h"
 #include "present/image/image_file.h"
 #include "present/video/video_file.h"
 

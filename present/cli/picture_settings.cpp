@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rows of visit_settings() about the picture's content and look.
-#include <fmt/format.h>
+#include "present/cli/picture_settings.h"
 
+#include <fmt/format.h>
 #include <tuple>
 
+#include "host/picture/views.h"
 #include "present/cli/option_builder.h"
-#include "present/cli/options.h"
 
 namespace kilolux {
 namespace {

@@ -69,7 +69,7 @@ void check_progress(ProgressKind kind, bool prints_result) {
 }
 
 std::string farm_line(ProgressKind kind, double share) {
-    // Rounded down: what is not done is not 100.
+    // Rounded down: unfinished work never shows 100.
     if (kind == ProgressKind::openjd)
         return fmt::format("openjd_progress: {:.1f}", std::floor(1000.0 * share) / 10.0);
     if (kind == ProgressKind::alf)

@@ -19,7 +19,7 @@ std::string duration_text(double seconds);
 std::string progress_line(const std::string& label, std::size_t done, std::size_t total,
                           double elapsed_s, int width);
 
-/// How progress is told: automatic is a bar on a terminal, else plain lines on stderr; openjd and
+/// How progress is shown: automatic is a bar on a terminal, else plain lines on stderr; openjd and
 /// alf are the lines that Open Job Description and Tractor read on stdout.
 enum class ProgressKind { automatic, plain, openjd, alf, none };
 

@@ -2,9 +2,11 @@
 // Sequences: their frames, shards of them, and file names.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -47,13 +49,13 @@ class FrameList {
 struct Shard {
     int index = 0;  // 0 <= index < count
     int count = 1;
-    std::string_view variable{};  // of the environment, which told it; empty: none
+    std::string_view variable{};  // of the environment, which says it; empty: none
     bool operator==(const Shard&) const = default;
 };
 
 /// Every `shard.count`-th of `items`, from that at `shard.index` on.
 template <typename T>
-std::vector<T> part_of(const std::vector<T>& items, const Shard& shard) {
+std::vector<T> items_of_shard(const std::vector<T>& items, const Shard& shard) {
     std::vector<T> out;
     const auto step = static_cast<std::size_t>(shard.count);
     for (auto i = static_cast<std::size_t>(shard.index); i < items.size(); i += step)
@@ -61,17 +63,18 @@ std::vector<T> part_of(const std::vector<T>& items, const Shard& shard) {
     return out;
 }
 
-/// Every `shard.count`-th of `frames`, from that at `shard.index` on. Counted, not stored.
-class ShardFrames {
+/// Every `shard.count`-th of `numbers`, of frames or tiles, from that at `shard.index` on. Counted,
+/// not stored.
+class ShardNumbers {
  public:
-    ShardFrames(FrameList frames, const Shard& shard);
+    ShardNumbers(FrameList numbers, const Shard& shard);
     std::size_t size() const { return size_; }
 
     /// 0 <= i < size().
     int operator[](std::size_t i) const;
 
  private:
-    FrameList frames_;
+    FrameList numbers_;
     std::size_t index_;
     std::size_t count_;
     std::size_t size_;
@@ -87,11 +90,45 @@ struct TileGrid {
 /// The pixels of a tile of a picture; tiles are counted from the left in each row, from the top.
 PixelRect tile_rect(const TileGrid& tiles, int tile, int width, int height);
 
-/// Whether the file name holds a run of '#' that stands for the frame number.
+/// Whether the file name holds a run of '#' that stands for the number of a frame or tile.
 bool has_frame_pattern(const std::filesystem::path& file);
 
-/// The file of one frame: the last run of '#' in the file name becomes the number, padded with
-/// zeros to the run's length and never cut.
-std::filesystem::path frame_file(const std::filesystem::path& pattern, int frame);
+/// The file of one frame or tile: the last run of '#' in the file name becomes the number, padded
+/// with zeros to the run's length and never cut.
+std::filesystem::path numbered_file(const std::filesystem::path& pattern, int number);
+
+/// The variables of one scheduler. Those that it does not set are null.
+struct ArrayVariables {
+    const char* scheduler;
+    const char* index;
+    const char* count;
+    const char* first;  // the least index
+    const char* step;   // between indices
+    int base;           // the usual least index
+};
+
+/// Of a task one index is set.
+inline constexpr auto kArrayVariables = std::to_array<ArrayVariables>({
+    {"Slurm", "SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_COUNT", "SLURM_ARRAY_TASK_MIN",
+     "SLURM_ARRAY_TASK_STEP", 0},
+    {"Kubernetes", "JOB_COMPLETION_INDEX", nullptr, nullptr, nullptr, 0},
+    {"AWS Batch", "AWS_BATCH_JOB_ARRAY_INDEX", "AWS_BATCH_JOB_ARRAY_SIZE", nullptr, nullptr, 0},
+    {"Open MPI", "OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE", nullptr, nullptr, 0},
+    {"GNU parallel", "PARALLEL_SEQ", nullptr, nullptr, nullptr, 1},
+});
+
+/// The help text of --shard; `parts` is what is divided, such as "frame or tile".
+std::string shard_meaning(const std::string& parts);
+
+/// Notes the variable that gave the shard, if there is one.
+void note_shard(const Shard& shard);
+
+/// This task's shard of as many as the scheduler has tasks. Throws UsageError that starts with
+/// `option` where no index or several are set, or the scheduler does not tell the number.
+Shard shard_of_task(const std::string& option);
+
+/// This task's shard of `count`, where the scheduler's least index is the usual one: also right
+/// where some tasks of an array are run again. Throws UsageError.
+Shard shard_of_task(const std::string& option, int count);
 
 }  // namespace kilolux

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host/scene/camera_path.h"
-#include "present/cli/options.h"
+#include "present/cli/output_options.h"
 
 namespace kilolux {
 

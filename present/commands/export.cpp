@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "present/commands/export.h"
+
 #include <fmt/format.h>
 
 #include "host/base/error.h"
@@ -11,7 +13,6 @@
 #include "present/cli/option_builder.h"
 #include "present/cli/options.h"
 #include "present/cli/scene_choice.h"
-#include "present/program.h"
 
 namespace kilolux {
 namespace {
@@ -23,7 +24,7 @@ struct ExportOptions {
     fs::path output;
 };
 
-std::string scene_file(const std::string&, const std::string& text) {
+std::string exported_file(const std::string&, const std::string& text) {
     const std::string extension = lower(fs::path(text).extension().string());
     if (extension == ".glb" || extension == ".gltf") return text;
     throw UsageError(
@@ -96,7 +97,7 @@ void add_export_options(CLI::App& command, ExportOptions& options) {
     OptionBuilder(command, "Output")
         .value({"--output,-o", "FILE", "",
                 "Scene: .glb holds everything, .gltf has its buffer and images beside it"},
-               options.output, scene_file);
+               options.output, exported_file);
     leave_to_help_all(
         command, {"--renderer", "--samples", "--show", "--aov", "--gbuffer", "--shading",
                   "--ambient", "--exposure", "--tonemap", "--bloom", "--device", "--list-devices"});

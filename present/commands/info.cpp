@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "present/commands/info.h"
+
 #include <fmt/format.h>
 #include <algorithm>
 
@@ -13,8 +15,8 @@
 #include "present/cli/options.h"
 #include "present/cli/scene_choice.h"
 #include "present/cli/stats_json.h"
-#include "present/commands/bench.h"
-#include "present/program.h"
+#include "present/commands/bench/bench.h"
+#include "present/commands/bench/bench_context.h"
 
 namespace kilolux {
 namespace {

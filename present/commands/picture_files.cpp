@@ -94,13 +94,13 @@ std::unique_ptr<VideoFile> open_video(const RenderOptions& options) {
     return std::make_unique<VideoFile>(out.output, wanted.format, wanted.note);
 }
 
-// Of a single picture in strips these are told instead.
+// A single picture in strips shows the progress of its strips instead.
 ProgressKind shown_progress(const RenderOptions& options, std::size_t count,
                             const Renderer& renderer) {
     const OutputOptions& out = options.output;
-    const bool tells_strips =
+    const bool shows_strips =
         count == 1 && !out.crop && !out.tiles && !out.frames && renderer.strips().size() > 1;
-    return tells_strips ? ProgressKind::none : options.shared.shown_progress();
+    return shows_strips ? ProgressKind::none : options.shared.shown_progress();
 }
 
 // Of the largest part of the picture that has a file of its own; 0: the whole has one.

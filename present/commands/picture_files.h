@@ -12,6 +12,7 @@
 #include "host/base/spares.h"
 #include "host/render/renderer.h"
 #include "present/cli/options.h"
+#include "present/cli/output_options.h"
 #include "present/cli/progress.h"
 #include "present/cli/stats_json.h"
 #include "present/commands/error_budget_options.h"
@@ -21,21 +22,28 @@
 
 namespace kilolux {
 
+/// A tile, and RenderOptions::command of it as a crop.
+struct PictureTile {
+    PixelRect crop;
+    std::string command;
+    bool operator==(const PictureTile&) const = default;
+};
+
 struct RenderOptions {
     SharedOptions shared;
     OutputOptions output;
     BudgetOptions budget;
     bool has_alpha = false;  // the picture: see wants_alpha()
     std::string command{};   // picture_command() of what was asked for, and inputs_comment()
-    std::vector<std::string> tile_commands{};  // the same of each tile
+    std::vector<PictureTile> tiles{};  // of output.tiles
     bool operator==(const RenderOptions&) const = default;
 };
 
 void visit_settings(RenderOptions& options, const SettingVisitor& visit);
 
-/// One picture to make: a frame of the sequence, or the only one.
+/// One picture to make: a frame of the sequence, a tile, or the only one.
 struct PictureTask {
-    int frame = 0;
+    int number = 0;     // of the frame or tile
     double time = 0.0;  // [s]
     std::filesystem::path file;
     std::filesystem::path reference;   // empty: none
@@ -73,7 +81,7 @@ bool is_for_the_eye(const std::filesystem::path& output);
 /// Whether display colours are made on the host, of 16 bits or by OpenColorIO.
 bool wants_own_display(const RenderOptions& options);
 
-/// How the picture is stored, with what is not in its frame: display colours of 16 bits or by
+/// How the picture is stored, with the parts that its frame lacks: display colours of 16 bits or by
 /// OpenColorIO, and alpha.
 ImageOptions image_options(const RenderOptions& options, const RenderedPicture& picture);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
+#include "present/commands/render.h"
 
+#include <fmt/format.h>
 #include <memory>
 #include <utility>
 
@@ -8,21 +9,22 @@
 #include "host/base/log.h"
 #include "host/base/system/atomic_write.h"
 #include "host/render/whole_picture.h"
-#include "present/cli/array_task.h"
 #include "present/cli/frame_summary.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/option_values.h"
 #include "present/cli/options.h"
+#include "present/cli/output_options.h"
+#include "present/cli/sequence.h"
 #include "present/commands/camera_motion.h"
+#include "present/commands/devices/device_choice.h"
 #include "present/commands/devices/device_share.h"
 #include "present/commands/devices/picture_by_rows.h"
 #include "present/commands/made_picture.h"
 #include "present/commands/picture_files.h"
-#include "present/commands/picture_tasks.h"
+#include "present/commands/render_tasks.h"
 #include "present/commands/scene_renderer.h"
 #include "present/image/comparison.h"
 #include "present/image/image_file.h"
-#include "present/program.h"
 #include "present/video/video_file.h"
 
 namespace kilolux {
@@ -130,7 +132,7 @@ void render_from(RenderOptions& options, const PictureTasks& tasks, std::size_t 
     const bool is_one_crop = tasks.size() - begin == 1 && first.crop.has_value();
     std::vector<std::string> more_devices = is_one_crop ? std::vector<std::string>{} : others;
     if (more_devices.size() < others.size()) note("device  one device makes a crop");
-    FirstPicture start{request_of(options, options.shared.settings.want), first.time, first.frame,
+    FirstPicture start{request_of(options, options.shared.settings.want), first.time, first.number,
                        camera};
     DeviceHelpers* helpers = nullptr;  // of a single picture
     if (!more_devices.empty() && tasks.size() - begin == 1) {
@@ -169,7 +171,7 @@ void note_commands(RenderOptions& options) {
     const RenderSettings& s = options.shared.settings;
     for (int i = 0; i < tiles.columns * tiles.rows; ++i) {
         one.output.crop = tile_rect(tiles, i, s.width, s.height);
-        options.tile_commands.push_back(picture_command(one));
+        options.tiles.push_back({*one.output.crop, picture_command(one)});
     }
 }
 
@@ -183,7 +185,7 @@ void run_render(RenderOptions& options) {
     check_budget(options.shared, options.budget);
     const std::string inputs = inputs_comment(options);
     options.command += inputs;
-    for (std::string& command : options.tile_commands) command += inputs;
+    for (PictureTile& tile : options.tiles) tile.command += inputs;
     note_shard(out.shard);
     const PictureTasks tasks(options);
     if (tasks.size() == 0) {

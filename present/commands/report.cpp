@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/core.h>
+#include "present/commands/report.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 
 #include "host/base/error.h"
@@ -12,18 +13,17 @@
 #include "host/measure/report/error_sheets.h"
 #include "host/measure/report/run.h"
 #include "host/measure/report/tables.h"
-#include "present/cli/array_task.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/progress.h"
 #include "present/cli/scene_choice.h"
+#include "present/cli/sequence.h"
 #include "present/cli/stats_json.h"
-#include "present/commands/bench.h"
+#include "present/commands/bench/bench.h"
+#include "present/commands/bench/bench_context.h"
+#include "present/commands/devices/device_choice.h"
 #include "present/commands/devices/report_devices.h"
 #include "present/commands/error_budget_options.h"
-#include "present/commands/picture_tasks.h"
-#include "present/commands/report.h"
 #include "present/image/image_file.h"
-#include "present/program.h"
 
 namespace kilolux {
 namespace {
@@ -76,7 +76,7 @@ std::vector<ReportSetting> chosen_settings(const ReportOptions& options, const S
 // The settings of the shard. Each shard has the default, with whose frames the others' are paired.
 std::vector<ReportSetting> part_of_settings(const std::vector<ReportSetting>& all,
                                             const Shard& shard) {
-    std::vector<ReportSetting> out = part_of(all, shard);
+    std::vector<ReportSetting> out = items_of_shard(all, shard);
     if (shard.index > 0) out.insert(out.begin(), all.front());
     return out;
 }

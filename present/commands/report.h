@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host/measure/report/run.h"
+#include "present/program.h"
 
 namespace kilolux {
 
@@ -19,5 +20,7 @@ std::filesystem::path error_map_file(const std::filesystem::path& folder, std::s
 
 /// Warns where another setting beats the default; with `must_hold`, throws ComparisonFailed.
 void judge_default(const std::vector<ReportRow>& rows, bool must_hold);
+
+void add_report_command(Program& program);
 
 }  // namespace kilolux

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-
 #include <utility>
 
 #include "host/base/error.h"
@@ -12,7 +11,7 @@
 #include "host/measure/roofline/roofline.h"
 #include "host/render/plan/kernel_choice.h"
 #include "present/cli/scene_choice.h"
-#include "present/commands/bench.h"
+#include "present/commands/bench/bench_context.h"
 #include "present/image/automatic_exposure.h"
 
 namespace kilolux {

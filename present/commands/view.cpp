@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "present/commands/view.h"
+
 #include <cstdio>
 #include <cstdlib>
 
@@ -7,7 +9,6 @@
 #include "present/cli/option_builder.h"
 #include "present/cli/scene_choice.h"
 #include "present/image/image_file.h"
-#include "present/program.h"
 #include "present/window/app/session.h"
 #include "present/window/app/state_file.h"
 

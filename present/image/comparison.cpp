@@ -2,7 +2,6 @@
 #include "present/image/comparison.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -10,8 +9,10 @@
 #include "host/base/formats/srgb.h"
 #include "host/measure/metrics/error_metrics.h"
 #include "host/measure/metrics/flip.h"
+#include "host/measure/metrics/flip_hdr.h"
 #include "present/image/display_picture.h"
 #include "present/image/image_file.h"
+#include "present/image/read.h"
 
 namespace kilolux {
 namespace {

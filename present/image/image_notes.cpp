@@ -61,6 +61,16 @@ void add_notes(ImageLayout& layout, const ImageNotes& notes, NoteForm form) {
     }
 }
 
+void drop_note(ImageLayout& layout, const std::string& name) {
+    std::erase_if(layout.attributes, [&](const auto& a) { return a.first == key_of(name); });
+    for (auto& [attribute, value] : layout.attributes) {
+        auto* text = std::get_if<std::string>(&value);
+        if (attribute != "ImageDescription" || text == nullptr) continue;
+        const std::size_t at = text->find("\n" + key_of(name) + "=");
+        if (at != std::string::npos) text->erase(at, text->find('\n', at + 1) - at);
+    }
+}
+
 void insert_comments(std::vector<unsigned char>& hdr, const ImageNotes& notes) {
     std::string comments;
     std::istringstream lines(text_of(notes));

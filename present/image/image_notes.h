@@ -20,6 +20,9 @@ enum class NoteForm { attributes, description, comments };
 /// Adds the notes to what is written; of `comments` nothing.
 void add_notes(ImageLayout& layout, const ImageNotes& notes, NoteForm form);
 
+/// Removes the note of that name from a file that open_image() read as `layout`; not from comments.
+void drop_note(ImageLayout& layout, const std::string& name);
+
 /// Puts the notes into an HDR file's header.
 void insert_comments(std::vector<unsigned char>& hdr, const ImageNotes& notes);
 

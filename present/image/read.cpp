@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "present/image/read.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "host/base/error.h"
 #include "host/images/images.h"
-#include "present/image/image_file.h"
 
 namespace kilolux {
 namespace {

@@ -2,14 +2,13 @@
 #include "present/python/arrays.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
 #include "host/base/error.h"
 #include "host/base/text.h"
-#include "host/scene/gltf/mesh/directions.h"
+#include "host/scene/gltf/mesh/normals.h"
 #include "host/scene/lights/light_kinds.h"
 
 namespace py = pybind11;

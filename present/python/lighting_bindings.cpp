@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "present/python/lighting_bindings.h"
+
 #include <pybind11/stl.h>
 
 #include "host/base/error.h"
 #include "present/python/arrays.h"
-#include "present/python/bindings.h"
 #include "present/python/gbuffer_lighting.h"
 
 namespace py = pybind11;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "present/python/metric_bindings.h"
+
 #include <algorithm>
 
 #include "host/base/error.h"
 #include "host/measure/metrics/error_metrics.h"
 #include "host/measure/metrics/flip.h"
+#include "host/measure/metrics/flip_hdr.h"
 #include "host/measure/metrics/ssim.h"
 #include "present/python/arrays.h"
-#include "present/python/bindings.h"
 
 namespace py = pybind11;
 

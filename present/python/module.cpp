@@ -4,7 +4,10 @@
 #include "host/base/error.h"
 #include "host/base/version.h"
 #include "host/render/renderer.h"
-#include "present/python/bindings.h"
+#include "present/python/lighting_bindings.h"
+#include "present/python/metric_bindings.h"
+#include "present/python/renderer_bindings.h"
+#include "present/python/scene_bindings.h"
 
 namespace py = pybind11;
 

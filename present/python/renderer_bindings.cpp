@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <pybind11/stl.h>
+#include "present/python/renderer_bindings.h"
 
+#include <pybind11/stl.h>
 #include <algorithm>
 
 #include "present/python/arrays.h"
-#include "present/python/bindings.h"
 #include "present/python/thread_renderer.h"
 
 namespace py = pybind11;

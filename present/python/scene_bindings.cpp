@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "present/python/scene_bindings.h"
+
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include "host/base/error.h"
 #include "host/scene/lights/light_kinds.h"
 #include "present/python/arrays.h"
-#include "present/python/bindings.h"
 
 namespace py = pybind11;
 

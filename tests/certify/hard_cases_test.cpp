@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The numerically hard cases and the metamorphic tests, each at several lane widths.
 #include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cstdlib>
 
-#include "host/certify/hard_case.h"
+#include "host/certify/hard_cases.h"
 #include "tests/support/full.h"
 
 namespace kilolux {

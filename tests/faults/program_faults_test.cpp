@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/mount.h>
-
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
@@ -12,6 +11,7 @@
 #include <thread>
 
 #include "present/image/image_file.h"
+#include "present/image/read.h"
 #include "tests/support/child.h"
 #include "tests/support/paths.h"
 

@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "host/base/error.h"
+#include "host/scene/lights/ies_file.h"
 #include "host/scene/lights/photometric_web.h"
 #include "tests/fuzz/fuzz_targets.h"
 #include "tests/support/ies_text.h"

@@ -6,6 +6,7 @@
 #include "host/base/error.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/options.h"
+#include "present/cli/output_options.h"
 #include "present/config_file.h"
 #include "present/program.h"
 #include "tests/fuzz/fuzz_targets.h"

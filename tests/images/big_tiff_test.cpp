@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // TIFF files beyond 4 GiB.
 #include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "present/image/image_file.h"
+#include "present/image/read.h"
 #include "tests/images/file_frames.h"
 #include "tests/support/temporary_folder.h"
 

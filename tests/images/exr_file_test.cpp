@@ -2,11 +2,11 @@
 // OpenEXR files: channels, compressions and what their headers say.
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cstring>
 
 #include "present/image/image_file.h"
+#include "present/image/read.h"
 #include "tests/images/file_frames.h"
 #include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Image files that are written: what their types hold.
-#include "present/image/image_file.h"
-
 #include <gtest/gtest.h>
-
 #include <cmath>
 
+#include "present/image/image_file.h"
+#include "present/image/read.h"
 #include "tests/images/file_frames.h"
 #include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"

@@ -2,10 +2,10 @@
 // Layers of ids: floats where these are exact, else integers of 32 bits.
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
-
 #include <algorithm>
 
 #include "present/image/image_file.h"
+#include "present/image/read.h"
 #include "tests/images/file_frames.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Image files that are read.
 #include <gtest/gtest.h>
-
 #include <cmath>
 
 #include "host/base/formats/srgb.h"
@@ -9,6 +8,7 @@
 #include "host/images/images.h"
 #include "host/scene/lights/environment.h"
 #include "present/image/image_file.h"
+#include "present/image/read.h"
 #include "tests/images/file_frames.h"
 #include "tests/support/temporary_folder.h"
 

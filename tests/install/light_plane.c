@@ -53,7 +53,7 @@ static kilolux_frame plane_frame(cl_context context) {
     return frame;
 }
 
-/* What no call may take; nothing of it reaches the device. */
+/* Input that every call refuses before the device gets any. */
 static void expect_refusals(kilolux_lighting* lighting, const kilolux_frame* good) {
     kilolux_light light = {{0, 0, 0}, 1.0f, {1, 1, 1}, 1, {0, 0, 0}, 0.9f, 0.8f};
     kilolux_directional_light directional = {{0, 0, 2}, {1, 1, 1}};

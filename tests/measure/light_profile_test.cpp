@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The kernels' photometric webs against the file's own angles and values in double.
 #include <gtest/gtest.h>
-
 #include <glm/glm.hpp>
 #include <random>
 
 #include "host/certify/synthetic/run_probe.h"
 #include "host/gpu/buffer.h"
 #include "host/picture/web_in_view.h"
+#include "host/scene/lights/ies_file.h"
 #include "tests/support/ies_text.h"
 #include "tests/support/test_gpu.h"
 

@@ -89,10 +89,10 @@ void expect_isolated_causes() {
     const auto& r = report();
     const ReportRow& standard = r.row("default");
     // `full` quantises nothing: its error against what was drawn is that of the kernels.
-    EXPECT_EQ(r.row("gbuffer full").drawn.rmse, r.row("gbuffer full").kernels.hdr.rmse);
-    EXPECT_GT(standard.drawn.rmse, 100.0 * standard.kernels.hdr.rmse);
-    EXPECT_GT(r.row("gbuffer half").drawn.rmse, standard.drawn.rmse);
-    EXPECT_GT(r.row("gbuffer normal-xy").drawn.rmse, standard.drawn.rmse);
+    EXPECT_EQ(r.row("gbuffer full").rasterised.rmse, r.row("gbuffer full").kernels.hdr.rmse);
+    EXPECT_GT(standard.rasterised.rmse, 100.0 * standard.kernels.hdr.rmse);
+    EXPECT_GT(r.row("gbuffer half").rasterised.rmse, standard.rasterised.rmse);
+    EXPECT_GT(r.row("gbuffer normal-xy").rasterised.rmse, standard.rasterised.rmse);
     // A simpler shading model has no error by R1, but one by the scene's model.
     const ReportRow& lambert = r.row("shading lambert");
     EXPECT_LT(lambert.kernels.hdr.rmse, 1e-4 * lambert.surfaces.hdr.rmse);

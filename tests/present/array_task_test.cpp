@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // --shard auto, with the variables as schedulers set them.
-#include "present/cli/array_task.h"
-
 #include <gtest/gtest.h>
-
 #include <list>
 #include <map>
 #include <optional>
 
 #include "host/base/error.h"
 #include "present/cli/option_values.h"
+#include "present/cli/sequence.h"
 #include "tests/support/environment_variable.h"
 #include "tests/support/messages.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files with lights as Blender writes them: without a range, in child nodes that turn them.
 #include <gtest/gtest.h>
-
 #include <nlohmann/json.hpp>
 
 #include "host/certify/tail_scenarios.h"
 #include "host/scene/gltf/load_scene.h"
 #include "present/image/image_file.h"
+#include "present/image/read.h"
 #include "tests/support/child.h"
 #include "tests/support/messages.h"
 #include "tests/support/render_fixture.h"

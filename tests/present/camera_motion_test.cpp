@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cameras of sequences: files of keys and their mistakes, turntables, shards.
-#include "present/commands/camera_motion.h"
-
 #include <gtest/gtest.h>
 
 #include "host/base/error.h"
-#include "present/image/image_file.h"
+#include "present/commands/camera_motion.h"
+#include "present/image/read.h"
 #include "tests/support/box_scene.h"
 #include "tests/support/child.h"
 #include "tests/support/messages.h"

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // 16 bits and OpenColorIO.
-#include "present/image/display_picture.h"
-
 #include <gtest/gtest.h>
-
 #include <cmath>
 #include <cstdlib>
 
 #include "host/base/error.h"
 #include "host/render/environment_light.h"
-#include "present/image/image_file.h"
+#include "present/image/display_picture.h"
+#include "present/image/read.h"
 #include "tests/support/child.h"
 #include "tests/support/environment_variable.h"
 #include "tests/support/messages.h"

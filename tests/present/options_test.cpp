@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/cli/options.h"
-
 #include <gtest/gtest.h>
-
 #include <limits>
 #include <sstream>
 
 #include "host/scene/generated/scenes.h"
 #include "present/cli/names.h"
 #include "present/cli/option_builder.h"
+#include "present/cli/options.h"
+#include "present/cli/output_options.h"
 #include "tests/support/messages.h"
 
 namespace kilolux {

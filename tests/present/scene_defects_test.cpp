@@ -2,12 +2,12 @@
 // Scene files with defects, through the program: those written here, and those that others made,
 // which are skipped where their folder is not there.
 #include <gtest/gtest.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "present/image/image_file.h"
+#include "present/image/read.h"
 #include "tests/support/child.h"
 #include "tests/support/gltf_seeds.h"
 #include "tests/support/messages.h"

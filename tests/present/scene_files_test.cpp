@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scene files through the program: export and back, files outside the scene's folder.
 #include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "present/image/image_file.h"
+#include "present/image/read.h"
 #include "tests/support/child.h"
 #include "tests/support/environment_variable.h"
 #include "tests/support/gltf_builder.h"

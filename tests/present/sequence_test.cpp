@@ -1,32 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/cli/sequence.h"
-
 #include <gtest/gtest.h>
-
 #include <limits>
 #include <set>
 #include <vector>
 
 #include "host/base/error.h"
+#include "present/cli/sequence.h"
 #include "tests/support/messages.h"
 
 namespace kilolux {
 namespace {
 
 TEST(Sequence, FrameNames) {
-    EXPECT_EQ(frame_file("frame.####.exr", 7), "frame.0007.exr");
-    EXPECT_EQ(frame_file("frame.####.exr", 12345), "frame.12345.exr");
-    EXPECT_EQ(frame_file("f#.png", 7), "f7.png");
-    EXPECT_EQ(frame_file("#", 0), "0");
-    EXPECT_EQ(frame_file("##a###.png", 3), "##a003.png");  // the last run
-    EXPECT_EQ(frame_file("out#1/frame.##.exr", 3), "out#1/frame.03.exr");
-    EXPECT_EQ(frame_file("plain.exr", 3), "plain.exr");
-    EXPECT_EQ(frame_file("", 3), "");
+    EXPECT_EQ(numbered_file("frame.####.exr", 7), "frame.0007.exr");
+    EXPECT_EQ(numbered_file("frame.####.exr", 12345), "frame.12345.exr");
+    EXPECT_EQ(numbered_file("f#.png", 7), "f7.png");
+    EXPECT_EQ(numbered_file("#", 0), "0");
+    EXPECT_EQ(numbered_file("##a###.png", 3), "##a003.png");  // the last run
+    EXPECT_EQ(numbered_file("out#1/frame.##.exr", 3), "out#1/frame.03.exr");
+    EXPECT_EQ(numbered_file("plain.exr", 3), "plain.exr");
+    EXPECT_EQ(numbered_file("", 3), "");
     EXPECT_TRUE(has_frame_pattern("a/b.##.exr"));
     EXPECT_FALSE(has_frame_pattern("a##/b.exr"));
 }
 
-std::vector<int> all(const ShardFrames& frames) {
+std::vector<int> all(const ShardNumbers& frames) {
     std::vector<int> out;
     for (std::size_t i = 0; i < frames.size(); ++i) out.push_back(frames[i]);
     return out;
@@ -39,7 +37,7 @@ TEST(Sequence, ShardsPartTheFrames) {
     EXPECT_EQ(all({FrameRange{9, 9}, {1, 4}}), (std::vector<int>{}));
     const int end = std::numeric_limits<int>::max();
     EXPECT_EQ(all({FrameRange{end - 2, end}, {1, 2}}), (std::vector{end - 1}));
-    const ShardFrames every(FrameRange{0, end}, {0, 1});
+    const ShardNumbers every(FrameRange{0, end}, {0, 1});
     EXPECT_EQ(every.size(), std::size_t{1} << 31);
     EXPECT_EQ(every[every.size() - 1], end);
 }

@@ -2,9 +2,7 @@
 // Tests every option of `kilolux render`: all code that reads the rows of settings reads all of
 // them.
 #include <gtest/gtest.h>
-
 #include <wordexp.h>
-
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -12,7 +10,9 @@
 #include "host/scene/generated/scenes.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/scene_choice.h"
-#include "present/commands/bench.h"
+#include "present/commands/bench/bench_context.h"
+#include "present/commands/bench/bench_options.h"
+#include "present/commands/bench/bench_sweep.h"
 #include "present/commands/made_picture.h"
 #include "present/config_file.h"
 #include "present/window/app/command_text.h"
@@ -216,6 +216,82 @@ TEST(Settings, AreInTheKeyOfAChoice) {
         EXPECT_EQ(key(changed.options) == key(render_options()),
                   kOfNoResult.contains(changed.option))
             << changed.option;
+    }
+}
+
+// Values of the options that bench has besides those that visit_settings() lists, or as a list.
+const std::map<std::string, std::string>& bench_values() {
+    static const std::map<std::string, std::string> values = {
+        {"--renderer", "forward,deferred"},
+        {"--resolution", "64,36;128,72"},
+        {"--lights", "10:30:10"},
+        {"--grid", "8,4,2;4,4,1"},
+        {"--lanes", "2,4"},
+        {"--gbuffer", "full,half"},
+        {"--warm-up", "3"},
+        {"--frames", "7"},
+        {"--motion", "lights"},
+        {"--output", "out"},
+        {"--job", "png,exr"},
+        {"--table", "a.csv"},
+        {"--resume", "true"},
+        {"--json", "true"},
+        {"--quick", "true"},
+        {"--tune", "true"},
+    };
+    return values;
+}
+
+// What bench makes of words and of a config file.
+BenchOptions bench_options(std::vector<std::string> words, const std::filesystem::path& file = {}) {
+    BenchOptions options;
+    CLI::App app;
+    add_bench_options(app, options);
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+    if (!file.empty()) apply_config_file(app, file);
+    return options;
+}
+
+TEST(Settings, OfBenchChangeItsOptionsByCommandLineAndConfigFile) {
+    const TemporaryFolder folder;
+    BenchOptions listed;
+    CLI::App app;
+    add_bench_options(app, listed);
+    std::map<std::string, std::string> values;
+    for (const Setting& s : settings_of(listed.shared)) values[s.option()] = other_value(s);
+    for (const Setting& s : settings_of(listed.budget)) values[s.option()] = other_value(s);
+    for (const auto& [option, text] : bench_values()) values[option] = text;
+    const Names questions = {"--help", "--help-all", "--list-devices"};
+    for (const CLI::Option* option : app.get_options()) {
+        const std::string name = option->get_positional() ? "SCENE" : option->get_name();
+        // bench makes no pictures to look at, and refuses a background.
+        if (questions.contains(name) || name == "--background") continue;
+        ASSERT_TRUE(values.contains(name)) << name << ": this test needs a value for it";
+        const std::string& text = values.at(name);
+        const BenchOptions changed = bench_options({name == "SCENE" ? text : name + "=" + text});
+        EXPECT_FALSE(changed == bench_options({})) << name;
+        const std::string word = name == "SCENE" ? "scene" : name.substr(2);
+        write_text(folder / "a.json", nlohmann::json{{word, text}}.dump());
+        EXPECT_TRUE(bench_options({}, folder / "a.json") == changed) << name;
+    }
+}
+
+// Rows of other frames may not be added to those of a file.
+TEST(Settings, OfBenchThatChangeItsFramesRefuseAResume) {
+    const TemporaryFolder folder;
+    const DeviceInfo device = describe(choose_device(""));
+    const Scene scene = make_generated_scene("grid");
+    const auto context = [&](const BenchOptions& options) {
+        return bench_context(options.shared, bench_frames(options), scene,
+                             choose_camera(options.shared, scene), device);
+    };
+    const std::filesystem::path file = folder / "bench.context.json";
+    write_text(file, nlohmann::json{{"context", context(bench_options({}))}}.dump());
+    EXPECT_NO_THROW(require_same_context(file, context(bench_options({"--json"}))));
+    for (const char* option : {"--warm-up", "--frames", "--motion"}) {
+        const BenchOptions changed =
+            bench_options({option + std::string("=") + bench_values().at(option)});
+        EXPECT_THROW(require_same_context(file, context(changed)), Error) << option;
     }
 }
 

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Videos: y4m frame by frame, and what ffmpeg makes of it.
-#include "present/video/video_file.h"
-
 #include <gtest/gtest.h>
 #include <time.h>
-
 #include <array>
 #include <cmath>
 #include <sstream>
 
 #include "host/base/system/child_process.h"
 #include "present/image/image_file.h"
+#include "present/image/read.h"
+#include "present/video/video_file.h"
 #include "tests/support/child.h"
 #include "tests/support/messages.h"
 

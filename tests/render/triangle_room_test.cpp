@@ -68,5 +68,19 @@ TEST(TriangleRoom, AFrameThatOutgrowsItIsWhole) {
     }
 }
 
+// The frame's loop repeats forward-plus where its coarse lists had no room.
+TEST(ListRoom, AForwardPlusFrameThatOutgrowsItIsWhole) {
+    constexpr std::uint64_t kFirstRoom = std::uint64_t{1} << 20;
+    const Scene scene = make_generated_scene("grid");
+    RenderSettings settings = small_settings(64, 36, 6000);
+    settings.renderer = RendererKind::forward_plus;
+    settings.lights.radius = 100.0f;
+    Renderer renderer(scene, settings);
+    const Frame first = renderer.render(first_camera(scene), 0.0);
+    renderer.render(first_camera(scene), 0.1);
+    EXPECT_GT(first.stats.coarse_pairs, kFirstRoom) << "they fit from the start";
+    EXPECT_EQ(first.radiance, renderer.render(first_camera(scene), 0.0).radiance);
+}
+
 }  // namespace
 }  // namespace kilolux

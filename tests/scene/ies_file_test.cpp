@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // IES files: their contents, and the error for each kind of bad file.
 #include <gtest/gtest.h>
-
 #include <numbers>
 
 #include "host/base/error.h"
+#include "host/scene/lights/ies_file.h"
 #include "host/scene/lights/photometric_web.h"
 #include "tests/support/ies_text.h"
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "present/image/image_file.h"
+#include "present/image/read.h"
 #include "tests/support/child.h"
 #include "tests/support/paths.h"
 #include "tests/window/desktop.h"
@@ -114,5 +114,13 @@ class Script {
     const TemporaryFolder& folder_;
     std::string text_;
 };
+
+/// Plays a session and expects that neither OpenGL, OpenCL nor the program complains: an error
+/// during a script ends it with a message.
+inline void play(const Script& script) {
+    const ChildResult result = view_in_display({}, small_window(script.write()));
+    ASSERT_EQ(result.code, 0) << result.err << result.out;
+    EXPECT_EQ(result.err, "");
+}
 
 }  // namespace kilolux

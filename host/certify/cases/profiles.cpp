@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Case 34, light-profiles: photometric webs where their angles are hard to tell.
 #include <fmt/format.h>
-
 #include <functional>
 
 #include "host/certify/cases.h"
@@ -9,6 +8,7 @@
 #include "host/measure/reference/decoded_samples.h"
 #include "host/render/renderer.h"
 #include "host/scene/generated/scenes.h"
+#include "host/scene/lights/ies_file.h"
 
 namespace kilolux {
 namespace {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/images/module/encode.h"
+
 #include <OpenImageIO/filesystem.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 #include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -12,7 +13,7 @@
 
 #include "host/base/error.h"
 #include "host/base/system/descriptor.h"
-#include "host/images/module/parts.h"
+#include "host/images/module/library.h"
 
 namespace kilolux::oiio {
 namespace {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/images/library.h"
+#include "host/images/module/library.h"
 
-#include "host/images/module/parts.h"
+#include "host/images/library.h"
+#include "host/images/module/encode.h"
+#include "host/images/module/pixels.h"
+#include "host/images/module/read.h"
 
 namespace kilolux::oiio {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <OpenImageIO/filesystem.h>
+#include "host/images/module/read.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <algorithm>
 #include <cstring>
 #include <fstream>
@@ -8,7 +9,7 @@
 #include <string_view>
 
 #include "host/base/error.h"
-#include "host/images/module/parts.h"
+#include "host/images/module/library.h"
 
 namespace kilolux::oiio {
 namespace {

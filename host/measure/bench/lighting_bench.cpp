@@ -5,6 +5,7 @@
 #include <array>
 
 #include "host/base/hash.h"
+#include "host/gpu/repeat_until_fits.h"
 #include "host/render/plan/grid_request.h"
 #include "host/render/plan/kernel_choice.h"
 #include "host/render/surface_pass.h"
@@ -126,14 +127,12 @@ LightingInput LightingBench::input() const {
 
 Radiance LightingBench::light(Stages& stages) {
     const LightingInput from = input();
-    const StageTimer before = timer_;
-    Radiance radiance;
-    do {
-        timer_ = before;  // drops the times of lists that had no room
-        radiance = stages.lighting.enqueue(from, timer_);
+    const auto enqueue = [&] {
+        const Radiance radiance = stages.lighting.enqueue(from, timer_);
         stages.tonemap.enqueue(radiance, settings_.exposure, timer_);
-    } while (!stages.lighting.fits(timer_));
-    return radiance;
+        return radiance;
+    };
+    return repeat_until_fits(timer_, enqueue, [&] { return stages.lighting.fits(timer_); });
 }
 
 LightingRun LightingBench::run(const LightingRequest& request) {

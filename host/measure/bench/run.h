@@ -12,7 +12,7 @@
 #include "host/measure/bench/row.h"
 #include "host/measure/metrics/error_size.h"
 #include "host/measure/metrics/rgb_image.h"
-#include "host/measure/roofline/limit_kernels.h"
+#include "host/measure/roofline/limit_watch.h"
 #include "host/measure/roofline/roofline.h"
 #include "host/picture/frame.h"
 #include "host/render/renderer.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/metrics/flip.h"
+#include "host/measure/metrics/flip_hdr.h"
 
 #include <algorithm>
 #include <cmath>

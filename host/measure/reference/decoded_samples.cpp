@@ -52,10 +52,11 @@ ReferenceOptions reference_options(const KernelFeatures& kernels, const RenderSe
             .random_ranges = double{kernels.random_ranges}};
 }
 
-ReferenceOptions reference_options(const Renderer& renderer, const Camera& camera) {
+ReferenceOptions reference_options(const Renderer& renderer, const Camera& camera,
+                                   bool casts_shadows) {
     const KernelFeatures& kernels = renderer.plan().kernels;
     ReferenceOptions out = reference_options(kernels, renderer.settings(), camera);
-    if (kernels.shadows) {
+    if (kernels.shadows && casts_shadows) {
         out.shadows = std::make_shared<const ShadowCaster>(renderer.scene(), camera);
     }
     return out;

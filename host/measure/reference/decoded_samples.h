@@ -19,12 +19,15 @@ SurfaceSample surface_sample(const std::function<double(std::size_t)>& value, bo
 /// Depth 0 is background.
 SurfaceSamples surface_samples(const DecodedSurfaces& decoded);
 
-/// The model of what a renderer with these kernels and settings shades, without shadows.
+/// The model of surfaces that no renderer made, such as ray-cast ones: shaded as by a renderer with
+/// these kernels and settings, without shadows.
 ReferenceOptions reference_options(const KernelFeatures& kernels, const RenderSettings& settings,
                                    const Camera& camera);
 
-/// The model of what a renderer shades. With shadows it refers to the renderer's scene.
-ReferenceOptions reference_options(const Renderer& renderer, const Camera& camera);
+/// The model of what a renderer shades. With shadows it refers to the renderer's scene;
+/// `casts_shadows` false: the caller knows which lights are seen.
+ReferenceOptions reference_options(const Renderer& renderer, const Camera& camera,
+                                   bool casts_shadows = true);
 
 /// The reference of what a renderer shaded: its stored surfaces and float32 lights.
 ReferencePicture shade_reference(const LitSurfaces& lit, const ReferenceOptions& options);

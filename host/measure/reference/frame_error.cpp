@@ -5,7 +5,7 @@
 #include <cassert>
 
 #include "host/measure/metrics/error_size.h"
-#include "host/measure/metrics/flip.h"
+#include "host/measure/metrics/flip_hdr.h"
 #include "host/measure/reference/decoded_samples.h"
 #include "host/measure/reference/reference.h"
 

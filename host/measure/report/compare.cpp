@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The first part of a report: each setting's errors.
-#include <algorithm>
+#include "host/measure/report/compare.h"
 
-#include "host/measure/report/run.h"
+#include <algorithm>
 
 namespace kilolux {
 namespace {
@@ -10,12 +9,50 @@ namespace {
 constexpr double kSlowFrameMs = 20000.0;  // slower frames are not timed at full size
 constexpr int kLargerSide = 4;            // of the frame that shows how time grows with pixels
 
+// A ray in double takes as long as about ten evaluations.
+ErrorSizeLimits affordable(ErrorSizeLimits limits, const RenderSettings& settings) {
+    if (settings.shadows != Shadows::off) limits.evaluations /= 10.0;
+    return limits;
+}
+
 }  // namespace
+
+double pixels_of(const RenderSettings& settings) {
+    return static_cast<double>(settings.width) * settings.height;
+}
+
+ReportComparison::ReportComparison(const ReportView& view, const RenderSettings& base,
+                                   const ErrorSizeLimits& limits)
+    : view_(view),
+      device_{base.opened ? base.opened : std::make_shared<const Gpu>(choose_device(base.device)),
+              view.opened},
+      error_size_(kilolux::error_size({base.width, base.height},
+                                      base.lights.count + view.scene.lights.size(),
+                                      affordable(limits, base))),
+      references_(view, at_error_size(base)) {}
+
+void ReportComparison::on_step(std::function<void()> call) {
+    references_.on_step(call);
+    on_step_ = std::move(call);
+}
+
+RenderSettings ReportComparison::at_error_size(RenderSettings settings) const {
+    settings.width = error_size_[0];
+    settings.height = error_size_[1];
+    settings.opened = device_.gpu;
+    return settings;
+}
+
+RenderSettings ReportComparison::at_error_size(const ReportRow& row) const {
+    RenderSettings out = at_error_size(row.setting.settings);
+    out.opened = row.gpu;
+    return out;
+}
 
 // The picture whose error is measured. Of several samples with random ranges it is their mean
 // without jitter, whose edges no reference has. A first frame that seems slow is made again: it may
 // have built the kernels.
-Frame ReportRun::picture_of(Renderer& renderer, const ReportSetting& setting) {
+Frame ReportComparison::picture_of(Renderer& renderer, const ReportSetting& setting) {
     Frame frame = renderer.render(view_.camera, view_.time);
     const double whole = pixels_of(setting.settings) / pixels_of(renderer.settings());
     if (frame.stats.frame_ms * whole > kSlowFrameMs) {
@@ -42,7 +79,7 @@ Frame ReportRun::picture_of(Renderer& renderer, const ReportSetting& setting) {
     return frame;
 }
 
-ComparedRow ReportRun::compare(const ReportSetting& setting, const ReportDevice& device) {
+ComparedRow ReportComparison::compare(const ReportSetting& setting, const ReportDevice& device) {
     on_step_();
     ComparedRow out;
     ReportRow& row = out.row;
@@ -61,8 +98,8 @@ ComparedRow ReportRun::compare(const ReportSetting& setting, const ReportDevice&
     row.unbounded = picture_errors(frame, references_.unbounded());
     row.picture = rgb_image_of(frame.width, frame.height, frame.radiance);
     row.display = frame.display;
-    const ReferencePicture& drawn = references_.drawn(settings, device).picture;
-    row.drawn = compare_hdr(row.picture, drawn.radiance, {.scale = &drawn.scale});
+    const ReferencePicture& rasterised = references_.rasterised(settings, device).picture;
+    row.rasterised = compare_hdr(row.picture, rasterised.radiance, {.scale = &rasterised.scale});
     if (std::ranges::any_of(view_.scene.lights, lacks_range)) {
         row.tails =
             compare_hdr(row.picture, references_.unlimited(settings, device).picture.radiance);
@@ -73,8 +110,8 @@ ComparedRow ReportRun::compare(const ReportSetting& setting, const ReportDevice&
 }
 
 // `compared`: of a frame of the comparison, which stands for the frames of a slow setting.
-ReportTiming ReportRun::timing_of(const ReportSetting& setting, const FrameStats& compared,
-                                  const ReportDevice& device) {
+ReportTiming ReportComparison::timing_of(const ReportSetting& setting, const FrameStats& compared,
+                                         const ReportDevice& device) {
     ReportTiming out;
     out.stats = compared;
     out.expected_ms = expected_ms(setting.settings, compared.frame_ms, device);
@@ -86,7 +123,7 @@ ReportTiming ReportRun::timing_of(const ReportSetting& setting, const FrameStats
     return out;
 }
 
-void ReportRun::estimate_again(ComparedRow& compared) {
+void ReportComparison::estimate_again(ComparedRow& compared) {
     if (!compared.timing.scaled) return;
     const ReportSetting& setting = compared.row.setting;
     Renderer renderer(device_.opened, at_error_size(setting.settings));
@@ -98,8 +135,8 @@ void ReportRun::estimate_again(ComparedRow& compared) {
 
 // Time of a frame at full size, extrapolated from that of the comparison. Where a small frame's
 // time does not grow with its pixels (few pixels leave a GPU idle), a larger frame is timed.
-double ReportRun::expected_ms(const RenderSettings& whole, double compared_ms,
-                              const ReportDevice& device) {
+double ReportComparison::expected_ms(const RenderSettings& whole, double compared_ms,
+                                     const ReportDevice& device) {
     RenderSettings larger = at_error_size(whole);
     larger.opened = device.gpu;
     const TimedFrame small{pixels_of(larger), compared_ms};
@@ -116,8 +153,9 @@ double ReportRun::expected_ms(const RenderSettings& whole, double compared_ms,
 }
 
 // Measured on a further frame, since estimating the error takes time.
-std::optional<ErrorEstimate> ReportRun::estimated_error(const ReportRow& row, Renderer& renderer,
-                                                        const ReportDevice& device) {
+std::optional<ErrorEstimate> ReportComparison::estimated_error(const ReportRow& row,
+                                                               Renderer& renderer,
+                                                               const ReportDevice& device) {
     RenderSettings settings = at_error_size(row);
     const std::optional<EstimateKind> kind = estimate_kind(view_.scene, settings);
     if (!kind) return std::nullopt;

@@ -6,6 +6,7 @@
 
 #include "host/base/formats/srgb.h"
 #include "host/measure/metrics/flip.h"
+#include "host/measure/metrics/flip_hdr.h"
 #include "host/measure/metrics/ssim.h"
 #include "kernels/shared/tone_curve.h"
 

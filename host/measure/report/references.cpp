@@ -102,8 +102,8 @@ const ComparedReference& ReportReferences::surfaces(const RenderSettings& settin
     return surfaces_.emplace(key, cast_reference(settings, true)).first->second;
 }
 
-const ComparedReference& ReportReferences::drawn(const RenderSettings& settings,
-                                                 const ReportDevice& device) {
+const ComparedReference& ReportReferences::rasterised(const RenderSettings& settings,
+                                                      const ReportDevice& device) {
     RenderSettings full = settings;
     full.gbuffer = GBUFFER_FULL;
     full.shading = asked_.shading;

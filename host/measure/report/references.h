@@ -53,7 +53,7 @@ class ReportReferences {
 
     /// The picture asked for, from the rasteriser's surfaces: R1 of the layout `full` and the
     /// shading model asked for. It differs from R2 by the rasteriser's error.
-    const ComparedReference& drawn(const RenderSettings& settings, const ReportDevice& device);
+    const ComparedReference& rasterised(const RenderSettings& settings, const ReportDevice& device);
 
     /// R1 with every light that lacks a range reaching everywhere. A picture's difference from it
     /// is the error of ranges, groups and random numbers alone.

@@ -2,7 +2,6 @@
 #include "host/measure/report/run.h"
 
 #include <fmt/core.h>
-
 #include <algorithm>
 #include <limits>
 
@@ -48,51 +47,13 @@ std::string coverage_key(const RenderSettings& s) {
                        s.range_budget, s.tree_share, s.lights.radius);
 }
 
-// A ray in double takes as long as about ten evaluations.
-ErrorSizeLimits affordable(ErrorSizeLimits limits, const RenderSettings& settings) {
-    if (settings.shadows != Shadows::off) limits.evaluations /= 10.0;
-    return limits;
-}
-
 }  // namespace
-
-double pixels_of(const RenderSettings& settings) {
-    return static_cast<double>(settings.width) * settings.height;
-}
-
-ReportRun::ReportRun(const ReportView& view, const RenderSettings& base,
-                     const ErrorSizeLimits& limits)
-    : view_(view),
-      device_{base.opened ? base.opened : std::make_shared<const Gpu>(choose_device(base.device)),
-              view.opened},
-      error_size_(kilolux::error_size({base.width, base.height},
-                                      base.lights.count + view.scene.lights.size(),
-                                      affordable(limits, base))),
-      references_(view, at_error_size(base)) {}
-
-void ReportRun::on_step(std::function<void()> call) {
-    references_.on_step(call);
-    on_step_ = std::move(call);
-}
-
-RenderSettings ReportRun::at_error_size(RenderSettings settings) const {
-    settings.width = error_size_[0];
-    settings.height = error_size_[1];
-    settings.opened = device_.gpu;
-    return settings;
-}
-
-RenderSettings ReportRun::at_error_size(const ReportRow& row) const {
-    RenderSettings out = at_error_size(row.setting.settings);
-    out.opened = row.gpu;
-    return out;
-}
 
 // Timed frames stand for frames in which everything moves.
 RenderSettings ReportRun::whole_frames(const ReportSetting& setting) const {
     RenderSettings out = setting.settings;
     out.no_reuse = true;
-    out.opened = device_.gpu;
+    out.opened = device().gpu;
     return out;
 }
 
@@ -100,7 +61,7 @@ std::vector<ReportRow> ReportRun::measure(const std::vector<ReportSetting>& sett
                                           const BenchFrames& frames) {
     std::vector<ComparedRow> compared;
     for (const ReportSetting& setting : settings) {
-        compared.push_back(compare(setting, device_));
+        compared.push_back(compare(setting, device()));
         on_progress_();
     }
     return time(std::move(compared), frames);
@@ -135,7 +96,7 @@ void ReportRun::time_rounds(std::vector<ComparedRow>& compared, const BenchFrame
     ComparedRow& standard = compared.front();
     standard_.reset();
     if (!standard.timing.scaled) {
-        standard_.emplace(device_.opened, whole_frames(standard.row.setting));
+        standard_.emplace(device().opened, whole_frames(standard.row.setting));
     }
     for (int round = 0; round < kRounds; ++round) {
         for (ComparedRow& each : compared) {
@@ -151,8 +112,8 @@ void ReportRun::time_rounds(std::vector<ComparedRow>& compared, const BenchFrame
 }
 
 void ReportRun::render_into(Renderer& renderer, ReportTiming& timing) {
-    on_step_();
-    const Frame frame = renderer.render(view_.camera, view_.time);
+    step();
+    const Frame frame = renderer.render(view().camera, view().time);
     timing.stats = frame.stats;
     timing.frames.push_back(frame.stats.frame_ms);
     timing.stages.insert(timing.stages.end(), frame.stats.stages.begin(), frame.stats.stages.end());
@@ -167,11 +128,11 @@ void ReportRun::time_frames(const ReportSetting& setting, const BenchFrames& fra
     const int measured =
         std::clamp((frames.measured + kRounds - 1) / kRounds, 1, std::max(1, affordable));
     std::optional<Renderer> own;
-    if (standard || !standard_) own.emplace(device_.opened, whole_frames(setting));
+    if (standard || !standard_) own.emplace(device().opened, whole_frames(setting));
     Renderer& renderer = own ? *own : *standard_;
     for (int i = 0; i < std::min(frames.warm_up, affordable); ++i) {
-        on_step_();
-        renderer.render(view_.camera, view_.time);
+        step();
+        renderer.render(view().camera, view().time);
     }
     for (int i = 0; i < measured; ++i) {
         const bool paired = standard && standard_;
@@ -203,21 +164,21 @@ ReportSpeed ReportRun::speed_of(const ReportRow& row, const ReportTiming& timing
 }
 
 void ReportRun::count(ReportRow& row, const ReportTiming& timing) {
-    on_step_();
+    step();
     RenderSettings settings = row.setting.settings;
-    settings.opened = device_.gpu;
+    settings.opened = device().gpu;
     if (timing.scaled) settings = at_error_size(settings);
     RenderSettings counted = settings;
     counted.want.counts = true;
     counted.renderer = RendererKind::deferred;
     const auto [found, is_new] = coverages_.try_emplace(coverage_key(counted));
     if (is_new) {
-        found->second = Renderer(device_.opened, counted).render(view_.camera, view_.time).stats;
+        found->second = Renderer(device().opened, counted).render(view().camera, view().time).stats;
     }
     FrameStats stats = timing.stats;
     if (is_forward(settings.renderer)) {
         counted.renderer = settings.renderer;
-        stats = Renderer(device_.opened, counted).render(view_.camera, view_.time).stats;
+        stats = Renderer(device().opened, counted).render(view().camera, view().time).stats;
     }
     row.speed.k = stats.evaluations_per_pixel;
     row.speed.useful_k = found->second.useful_evaluations_per_pixel;

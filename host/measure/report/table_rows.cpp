@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows of a report from its CSV.
+#include "host/measure/report/table_rows.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -45,7 +46,7 @@ constexpr NumberColumn kNumbers[] = {
     {"R2 flip mean", [](Row& r) -> double& { return r.surfaces.flip.mean; }},
     {"R3 rmse", [](Row& r) -> double& { return r.unbounded.hdr.rmse; }},
     {"R3 flip mean", [](Row& r) -> double& { return r.unbounded.flip.mean; }},
-    {"drawn rmse", [](Row& r) -> double& { return r.drawn.rmse; }},
+    {"rasterised rmse", [](Row& r) -> double& { return r.rasterised.rmse; }},
     {"tails rmse", [](Row& r) -> double& { return r.tails.rmse; }},
     {"tails relmse", [](Row& r) -> double& { return r.tails.rel_mse; }},
 };

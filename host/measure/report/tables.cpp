@@ -210,9 +210,10 @@ Table report_table(const std::vector<Row>& rows) {
     add_errors(columns, "R3", &Row::unbounded);
     columns.insert(
         columns.end(),
-        {{"drawn rmse", [](const Row& row) { return row.drawn.rmse; }},
-         {"drawn 99.9 % rel", [](const Row& row) { return row.drawn.relative.percentile_99_9; }},
-         {"drawn max rel", [](const Row& row) { return row.drawn.relative.max; }},
+        {{"rasterised rmse", [](const Row& row) { return row.rasterised.rmse; }},
+         {"rasterised 99.9 % rel",
+          [](const Row& row) { return row.rasterised.relative.percentile_99_9; }},
+         {"rasterised max rel", [](const Row& row) { return row.rasterised.relative.max; }},
          {"tails rmse", [](const Row& row) { return row.tails.rmse; }},
          {"tails relmse", [](const Row& row) { return row.tails.rel_mse; }}});
     add_estimates(columns, rows);
@@ -233,7 +234,7 @@ Table report_summary(const std::vector<Row>& rows) {
         {"G eval/s", [](const Row& row) { return 1e-9 * row.speed.evaluations_per_s; }},
         {"R1 max rel", [](const Row& row) { return row.kernels.hdr.relative.max; }},
         {"R1 RMSE", [](const Row& row) { return row.kernels.hdr.rmse; }},
-        {"drawn RMSE", [](const Row& row) { return row.drawn.rmse; }},
+        {"rasterised RMSE", [](const Row& row) { return row.rasterised.rmse; }},
         {"R2 RMSE", [](const Row& row) { return row.surfaces.hdr.rmse; }},
         {"R2 PSNR [dB]", [](const Row& row) { return row.surfaces.hdr.psnr_db; }},
         {"R2 SSIM", [](const Row& row) { return row.surfaces.ssim; }},
@@ -277,7 +278,8 @@ std::string report_notes(const std::vector<Row>& rows) {
         "x default: frame time relative to the default's, median over pairs of frames.\n"
         "k: lights evaluated per surface pixel. k*: those of them in range. k*/k: the useful "
         "share.\n"
-        "R1: against float64 shading of the stored surfaces, the kernels' error. drawn: of the "
+        "R1: against float64 shading of the stored surfaces, the kernels' error. rasterised: of "
+        "the "
         "unquantised surfaces.\n"
         "R2: against float64 ray casting, the error of the whole picture. R3: as R2, with lights "
         "of unlimited range.\n{}",

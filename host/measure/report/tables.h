@@ -13,10 +13,6 @@ namespace kilolux {
 /// Everything that is measured: times of every stage, counts, every error against each reference.
 Table report_table(const std::vector<ReportRow>& rows);
 
-/// The texts of report_table() as rows that hold what the other functions here show, and what
-/// mark_fronts() and row_that_beats_default() compare. Throws Error with the line's number.
-std::vector<ReportRow> report_rows(const TextTable& csv);
-
 /// The columns that matter, for reading.
 Table report_summary(const std::vector<ReportRow>& rows);
 

@@ -2,7 +2,6 @@
 #include "host/measure/roofline/device_limits.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 
@@ -62,18 +61,6 @@ bool raise(double& limit, double measured) {
     const bool better = measured > 1.01 * limit;
     limit = std::max(limit, measured);
     return better;
-}
-
-// Raises the arithmetic limits until they converge: no rate rises three times in a row, or three
-// seconds have passed. A single measurement on a busy machine may be too low by a factor of 1.9.
-void settle_arithmetic_limits(DeviceLimits& limits, LimitKernels& kernels) {
-    constexpr int kQuietRounds = 3;
-    constexpr std::chrono::seconds kBudget(3);
-    const auto start = std::chrono::steady_clock::now();
-    int quiet = 0;
-    while (quiet < kQuietRounds && std::chrono::steady_clock::now() - start < kBudget) {
-        quiet = raise_arithmetic_limits(limits, kernels) ? 0 : quiet + 1;
-    }
 }
 
 }  // namespace
@@ -146,17 +133,14 @@ DeviceLimits cached_device_limits(const Gpu& gpu, bool measure_again) {
     return limits;
 }
 
-LimitWatch::LimitWatch(const cl::Device& device)
-    : gpu_(device, describe(device).vector_width),
-      kernels_(gpu_),
-      limits_(cached_device_limits(gpu_)) {
-    const DeviceLimits before = limits_;
-    settle_arithmetic_limits(limits_, kernels_);
-    if (limits_ != before) keep_device_limits(gpu_.info, limits_);
-}
-
-void LimitWatch::look_again() {
-    if (raise_arithmetic_limits(limits_, kernels_)) keep_device_limits(gpu_.info, limits_);
+void settle_arithmetic_limits(DeviceLimits& limits, LimitKernels& kernels) {
+    constexpr int kQuietRounds = 3;
+    constexpr std::chrono::seconds kBudget(3);
+    const auto start = std::chrono::steady_clock::now();
+    int quiet = 0;
+    while (quiet < kQuietRounds && std::chrono::steady_clock::now() - start < kBudget) {
+        quiet = raise_arithmetic_limits(limits, kernels) ? 0 : quiet + 1;
+    }
 }
 
 }  // namespace kilolux

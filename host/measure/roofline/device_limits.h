@@ -58,6 +58,10 @@ DeviceLimits measure_device_limits(const Gpu& gpu);
 /// that other load slows limits and runs alike. Returns whether a rate rose by more than 1 %.
 bool raise_arithmetic_limits(DeviceLimits& limits, LimitKernels& natural_lanes);
 
+/// Raises the arithmetic limits until they converge: no rate rises three times in a row, or three
+/// seconds have passed. A single measurement on a busy machine may be too low by a factor of 1.9.
+void settle_arithmetic_limits(DeviceLimits& limits, LimitKernels& natural_lanes);
+
 /// Keeps limits in the user's cache folder; warns where that cannot be written.
 void keep_device_limits(const DeviceInfo& device, const DeviceLimits& limits);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/export/parts.h"
+#include "host/scene/export/buffer.h"
 
 #include <algorithm>
 #include <limits>

@@ -2,7 +2,6 @@
 #include "host/scene/export/export_scene.h"
 
 #include <fmt/core.h>
-
 #include <cctype>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -10,6 +9,9 @@
 
 #include "host/base/error.h"
 #include "host/base/text.h"
+#include "host/scene/export/buffer.h"
+#include "host/scene/export/materials.h"
+#include "host/scene/export/nodes.h"
 #include "host/scene/export/parts.h"
 #include "host/scene/gltf/parallel.h"
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/export/parts.h"
+#include "host/scene/export/materials.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "host/images/images.h"
+#include "host/scene/export/parts.h"
 #include "host/scene/material_table.h"
 
 namespace kilolux {
@@ -133,6 +135,13 @@ Json material_json(const Material& m) {
     return out;
 }
 
+bool is_opaque(const Image& image) {
+    for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
+        if (image.rgba[i] != 255) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 Json& at_path(Json& object, std::string_view path) {
@@ -151,6 +160,14 @@ ExportedMaterials export_materials(const Scene& scene) {
         out.materials.push_back(material_json(within_factors(material)));
     }
     return out;
+}
+
+std::vector<unsigned char> encode_png(const Image& image) {
+    ImageLayout layout{image.width, image.height, {}};
+    for (const char* name : {"R", "G", "B"}) layout.channels.push_back({name, SampleType::uint8});
+    if (!is_opaque(image)) layout.channels.push_back({"A", SampleType::uint8});
+    layout.attributes.emplace_back("png:compressionLevel", 6);
+    return encode_pixels("image '" + image.name + "'", "png", layout, image.rgba, 4);
 }
 
 }  // namespace kilolux

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/export/parts.h"
+#include "host/scene/export/nodes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "host/scene/export/materials.h"
 #include "host/scene/lights/light_kinds.h"
 
 namespace kilolux {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "host/scene/gltf/extensions.h"
+#include "host/scene/lights/ies_file.h"
 
 namespace kilolux {
 namespace {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // IES files (ANSI/IES LM-63): keywords, TILT, then numbers apart by spaces, lines or commas.
-#include <fmt/core.h>
+#include "host/scene/lights/ies_file.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
 #include <string_view>
 
 #include "host/base/error.h"
 #include "host/base/text.h"
-#include "host/scene/lights/photometric_web.h"
 
 namespace kilolux {
 namespace {

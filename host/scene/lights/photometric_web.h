@@ -21,13 +21,6 @@ struct PhotometricWeb {
         0.0;  // the largest error of the table at the file's angles, as a share of the peak
 };
 
-/// Reads an IES file: LM-63-1986, -1991, -1995, -2002 and -2019. `where` starts the messages.
-///
-/// Symmetries are unfolded, multiplier and ballast factor applied. A tilt's factors (TILT=INCLUDE)
-/// are for a lamp that is not held as it was measured: they are skipped. Throws Error for
-/// photometry of type A or B, TILT=<file>, and whatever is not a photometric web.
-PhotometricWeb read_photometric_web(std::string text, const std::string& where);
-
 /// Bilinear between the file's angles; 0 beyond its vertical ones [cd]. Angles in degrees,
 /// `horizontal` from 0 to 360.
 double candela_at(const PhotometricWeb& web, double vertical, double horizontal);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "present/commands/assemble/assemble.h"
+
 #include <fmt/format.h>
 
 #include "host/base/log.h"
@@ -7,7 +9,6 @@
 #include "present/cli/progress.h"
 #include "present/commands/assemble/tiles.h"
 #include "present/image/image_file.h"
-#include "present/program.h"
 
 namespace kilolux {
 namespace {

@@ -2,7 +2,6 @@
 #include "present/commands/assemble/tiles.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <memory>
 #include <string>
@@ -12,6 +11,7 @@
 #include "host/render/settings.h"
 #include "present/cli/option_values.h"
 #include "present/image/image_file.h"
+#include "present/image/image_notes.h"
 
 namespace kilolux {
 namespace {
@@ -22,32 +22,25 @@ struct Tile {
     fs::path file;
     ImageLayout layout;
     PixelRect place;
-    std::string crop{};                    // " --crop X,Y,W,H" of its note
+    std::pair<int, int> whole{};           // size of the picture
+    std::string crop{};                    // " --crop X,Y,W,H"
     std::string command{};                 // of its note, without that
     std::string time{};                    // of its note
     std::unique_ptr<ImageReader> image{};  // while its rows are read
 };
 
-constexpr const char* kCrop = " --crop ";
-constexpr const char* kResolution = " --resolution ";
-
-// Of the whole picture, by its command.
-std::pair<int, int> noted_size(const std::string& command) {
-    const std::size_t at = command.find(kResolution);
-    if (at == std::string::npos) return {RenderSettings{}.width, RenderSettings{}.height};
-    const std::size_t begin = at + std::string_view(kResolution).size();
-    return parse_resolution("--resolution",
-                            command.substr(begin, command.find(' ', begin) - begin));
-}
-
-// What `parse` makes of a part of a file's note.
+// A note of a file, as `parse` reads it.
 template <typename Parse>
-auto of_note(const fs::path& file, const Parse& parse) {
+auto parsed_note(const Tile& tile, const std::string& name, const Parse& parse) {
+    const std::string text = note_in(tile.file, tile.layout, name);
+    if (text.empty()) {
+        throw Error(fmt::format("{}: has no note of a --{}, so its place is unknown",
+                                tile.file.string(), name));
+    }
     try {
-        return parse();
+        return parse("--" + name, text);
     } catch (const UsageError& error) {
-        throw Error(
-            fmt::format("{}: its note of the command is broken: {}", file.string(), error.what()));
+        throw Error(fmt::format("{}: a note is broken: {}", tile.file.string(), error.what()));
     }
 }
 
@@ -55,16 +48,12 @@ Tile find_tile(const fs::path& file) {
     Tile out{file, open_image(file)->layout(), {}};
     out.command = note_in(file, out.layout, "command");
     out.time = note_in(file, out.layout, "time");
-    const std::size_t at = out.command.find(kCrop);
-    if (at == std::string::npos) {
-        throw Error(file.string() + ": has no note of a --crop, so its place is unknown");
-    }
-    const std::size_t begin = at + std::string_view(kCrop).size();
-    const std::size_t end = std::min(out.command.find(' ', begin), out.command.size());
-    out.crop = out.command.substr(at, end - at);
-    out.place =
-        of_note(file, [&] { return parse_crop("--crop", out.command.substr(begin, end - begin)); });
-    out.command.erase(at, end - at);
+    out.place = parsed_note(out, "crop", parse_crop);
+    out.whole = parsed_note(out, "resolution", parse_resolution);
+    drop_note(out.layout, "crop");
+    out.crop = " --crop " + text_of(out.place);
+    const std::size_t at = out.command.find(out.crop);
+    if (at != std::string::npos) out.command.erase(at, out.crop.size());
     if (out.place.width == out.layout.width && out.place.height == out.layout.height) return out;
     throw Error(fmt::format("{}: has {}x{} pixels, and its note is{}", file.string(),
                             out.layout.width, out.layout.height, out.crop));
@@ -158,7 +147,7 @@ void join_tiles(const fs::path& out, const std::vector<fs::path>& tiles,
     std::vector<TileRow> rows = rows_of(std::move(opened));
     const Tile& first = rows.front().front();
     const PixelRect& last = rows.back().back().place;
-    const auto [width, height] = of_note(first.file, [&] { return noted_size(first.command); });
+    const auto [width, height] = first.whole;
     if (last.x + last.width != width || last.y + last.height != height) {
         throw Error(
             fmt::format("{}: is the last tile and ends at {},{}; the picture has {}x{} pixels",

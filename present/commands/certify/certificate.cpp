@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <unistd.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -20,7 +19,7 @@
 #include "present/cli/names.h"
 #include "present/cli/scene_choice.h"
 #include "present/cli/stats_json.h"
-#include "present/commands/bench.h"
+#include "present/commands/bench/bench_context.h"
 
 namespace kilolux {
 namespace {

@@ -31,8 +31,4 @@ const std::vector<CertificatePart>& certificate_parts();
 nlohmann::ordered_json made_part(const CertificatePart& part, const cl::Device& device,
                                  const std::function<void()>& step);
 
-/// A row for each certificate: code, driver, failures, time of a frame. Then the failures, each
-/// with its worst value. Throws Error for a file that is no certificate.
-std::string certificates_text(const std::vector<std::string>& files);
-
 }  // namespace kilolux

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of certificates in Markdown.
-#include <fmt/format.h>
+#include "present/commands/certify/certificate_table.h"
 
+#include <fmt/format.h>
 #include <filesystem>
 
 #include "host/base/error.h"
@@ -9,6 +10,7 @@
 #include "host/measure/roofline/stage_report.h"
 #include "present/commands/certify/certificate.h"
 #include "present/commands/certify/certify.h"
+#include "present/commands/certify/certify_json.h"
 
 namespace kilolux {
 namespace {

@@ -19,7 +19,9 @@
 #include "present/cli/progress.h"
 #include "present/cli/stats_json.h"
 #include "present/commands/certify/certificate.h"
+#include "present/commands/certify/certificate_table.h"
 #include "present/commands/certify/certify_isolated.h"
+#include "present/commands/certify/certify_json.h"
 #include "present/program.h"
 
 namespace kilolux {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Certificates as JSON, and back.
+#include "present/commands/certify/certify_json.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,7 +9,6 @@
 #include "host/base/error.h"
 #include "host/base/system/read_text.h"
 #include "present/cli/conditions.h"
-#include "present/commands/certify/certify.h"
 
 namespace kilolux {
 namespace {

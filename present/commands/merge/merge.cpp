@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "present/commands/merge/merge.h"
+
 #include <fmt/format.h>
 
 #include "host/base/error.h"
@@ -7,9 +9,10 @@
 #include "host/measure/bench/row.h"
 #include "present/cli/conditions.h"
 #include "present/cli/option_builder.h"
-#include "present/commands/bench.h"
-#include "present/commands/merge/results.h"
-#include "present/program.h"
+#include "present/commands/bench/bench.h"
+#include "present/commands/bench/bench_context.h"
+#include "present/commands/merge/merge_bench.h"
+#include "present/commands/merge/merge_report.h"
 
 namespace kilolux {
 namespace {

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "present/commands/merge/merge_bench.h"
+
 #include <algorithm>
 
 #include "host/base/system/atomic_write.h"
 #include "host/measure/bench/plot.h"
 #include "host/measure/bench/row.h"
 #include "present/cli/stats_json.h"
-#include "present/commands/bench.h"
+#include "present/commands/bench/bench.h"
+#include "present/commands/bench/bench_context.h"
+#include "present/commands/bench/bench_sweep.h"
 #include "present/commands/merge/results.h"
 
 namespace kilolux {

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "present/commands/merge/merge_report.h"
+
 #include <algorithm>
 
 #include "host/base/error.h"
 #include "host/base/log.h"
 #include "host/base/system/atomic_write.h"
+#include "host/measure/report/table_rows.h"
 #include "host/measure/report/tables.h"
 #include "present/cli/stats_json.h"
-#include "present/commands/bench.h"
+#include "present/commands/bench/bench.h"
+#include "present/commands/bench/bench_context.h"
 #include "present/commands/merge/results.h"
 #include "present/commands/report.h"
 

@@ -9,7 +9,8 @@
 
 #include "host/base/error.h"
 #include "host/base/text.h"
-#include "present/commands/bench.h"
+#include "present/commands/bench/bench.h"
+#include "present/commands/bench/bench_context.h"
 
 namespace kilolux {
 namespace {

@@ -34,8 +34,8 @@ struct ResultRow {
 };
 
 /// All rows in the order of the sweep, as one run would have written them. Throws Error where a
-/// point is missing, does not belong to the sweep, or two results of the same commit, device, driver
-/// and tuning have it.
+/// point is missing, does not belong to the sweep, or two results of the same commit, device,
+/// driver and tuning have it.
 std::vector<ResultRow> rows_in_order(const std::vector<Result>& results);
 
 /// Columns that tell results of different conditions apart.
@@ -50,8 +50,5 @@ std::string condition_of(const Result& result, const ConditionColumn& column);
 /// The document of what is merged, but for the rows. Values in which the contexts differ become
 /// lists.
 nlohmann::ordered_json merged_document(const std::vector<Result>& results);
-
-void merge_bench(const MergeOptions& options, std::vector<Result> results);
-void merge_report(const MergeOptions& options, std::vector<Result> results);
 
 }  // namespace kilolux

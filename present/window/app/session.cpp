@@ -46,7 +46,7 @@ ViewSession::ViewSession(AnimatedScene& scene, SessionOptions options, StateFile
     if (!options_.script.empty()) {
         script_ = std::make_unique<ScriptPlayer>(
             options_.script,
-            ScriptStage{window_, ui_, [this] { return settled(); },
+            ScriptStage{window_, ui_, [this] { return picture_state(); },
                         [this](const std::filesystem::path& out) { save_window(out); }});
     }
 }
@@ -90,7 +90,7 @@ void ViewSession::wake() {
 
 // How long the loop may sleep while no event comes [s].
 double ViewSession::wait_seconds() {
-    if (script_) return script_->is_settling() ? 0.01 : 0.0;
+    if (script_) return script_->is_waiting() ? 0.01 : 0.0;
     if (is_resting()) return kIdleSeconds;
     const bool moves = camera_motion().any() || state_.lights_move || pictures_.is_moving();
     if (moves || frames_to_draw_ > 0 || !events_.empty()) return FrameClock::kUsualSeconds;
@@ -170,10 +170,10 @@ bool ViewSession::is_busy() const {
 }
 
 // Whether the last picture is the wanted one, in full size, and no task is left.
-Settled ViewSession::settled() const {
-    if (state_.lights_move) return Settled::never;
+PictureState ViewSession::picture_state() const {
+    if (state_.lights_move) return PictureState::endless;
     const bool shown = !pictures_.is_moving() && pictures_.has_finished(wanted());
-    return shown && !is_busy() ? Settled::yes : Settled::not_yet;
+    return shown && !is_busy() ? PictureState::complete : PictureState::pending;
 }
 
 void ViewSession::paint() {

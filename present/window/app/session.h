@@ -21,6 +21,7 @@
 #include "present/window/screen/event_queue.h"
 #include "present/window/screen/window.h"
 #include "present/window/script/script.h"
+#include "present/window/script/script_player.h"
 
 namespace kilolux {
 
@@ -83,7 +84,7 @@ class ViewSession {
     bool is_busy() const;
     bool renders_always() const { return state_.continuous || options_.exit_after > 0; }
     bool refines() const;
-    Settled settled() const;
+    PictureState picture_state() const;
     void take_picture(const PictureRequest& request, Picture picture);
     void save_picture(const std::string& extension);
     void save_window(const std::filesystem::path& file);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <GLFW/glfw3.h>
-
 #include <algorithm>
 
+#include "host/picture/views.h"
 #include "present/window/app/session.h"
 
 namespace kilolux {

@@ -2,11 +2,12 @@
 // The contents of a frame of the window.
 #include <fmt/format.h>
 #include <imgui.h>
-
 #include <algorithm>
 
 #include "present/cli/names.h"
 #include "present/window/app/session.h"
+#include "present/window/panel/panel_settings.h"
+#include "present/window/panel/panel_stats.h"
 
 namespace kilolux {
 // The line about a picture that takes long; empty: none.
@@ -51,15 +52,16 @@ void ViewSession::describe_panel(Actions& actions) {
     ImGui::Begin("panel", nullptr, kPinned);
     ui_.set_label_width(gui_.scaled(104.0f));
     facts_.boxes = clusters_.box_count();
-    const Panel panel{ui_, state_, actions, facts_};
-    panel.picture();
-    panel.lights();
-    panel.speed();
-    panel.clusters();
-    panel.camera(rig_);
-    panel.error();
-    panel.window();
-    panel.device();
+    const PanelSettings settings{{ui_, state_, actions, facts_}};
+    const PanelStats stats{settings};
+    settings.picture();
+    settings.lights();
+    stats.speed();
+    settings.clusters();
+    settings.camera(rig_);
+    stats.error();
+    settings.window();
+    stats.device();
     ImGui::End();
 }
 

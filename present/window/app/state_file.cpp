@@ -2,7 +2,6 @@
 #include "present/window/app/state_file.h"
 
 #include <fmt/format.h>
-
 #include <cstdlib>
 #include <fstream>
 

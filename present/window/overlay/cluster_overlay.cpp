@@ -18,8 +18,7 @@ std::optional<ProbedPixel> probe_pixel(Renderer& renderer, const PictureRequest&
     // The renderer may have made another picture since, e.g. for a measurement of errors.
     if (s.width != asked.settings.width || s.height != asked.settings.height) return std::nullopt;
     ProbedPixel out{at.x, at.y, s.width, s.height, asked.camera, renderer.probe(at.x, at.y), {}};
-    out.shares =
-        light_contributions(out.probe, reference_options(renderer.plan().kernels, s, asked.camera));
+    out.shares = light_contributions(out.probe, reference_options(renderer, asked.camera, false));
     return out;
 }
 

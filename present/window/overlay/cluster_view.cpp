@@ -3,14 +3,13 @@
 
 #include <fmt/format.h>
 #include <imgui.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "host/picture/view_canvas.h"
 #include "host/scene/lights/light_ranges.h"
-#include "present/window/panel/panel.h"
+#include "present/window/panel/panel_stats.h"
 
 namespace kilolux {
 namespace {

@@ -53,28 +53,12 @@ struct Actions {
     bool close = false;
 };
 
-/// The sections of the panel, one function each; they change `state` and `actions`.
+/// What a section of the panel shows and changes.
 struct Panel {
     Widgets& ui;
     ViewState& state;
     Actions& actions;
     const PanelFacts& facts;
-
-    void picture() const;
-    void lights() const;
-    void clusters() const;
-    void speed() const;
-    void camera(const CameraRig& rig) const;
-    void window() const;
-    void error() const;
-    void device() const;
 };
-
-/// A name-value line.
-void fact_line(const char* name, const std::string& value);
-
-/// "12.3 k", "1.20 M"; "34.5 MiB".
-std::string short_count(std::uint64_t value);
-std::string byte_text(std::uint64_t bytes);
 
 }  // namespace kilolux

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "present/window/panel/panel_settings.h"
+
 #include <fmt/format.h>
 #include <imgui.h>
-
 #include <cmath>
 
+#include "host/picture/views.h"
 #include "host/scene/lights/light_generator.h"
 #include "present/cli/names.h"
-#include "present/window/panel/panel.h"
+#include "present/window/panel/panel_stats.h"
 
 namespace kilolux {
 namespace {
@@ -26,7 +28,7 @@ void automatic_slider(Widgets& ui, const char* label, double& value, double auto
 
 }  // namespace
 
-void Panel::picture() const {
+void PanelSettings::picture() const {
     if (!ui.section("Picture", true)) return;
     RenderSettings& s = state.settings;
     ui.choice("Renderer", s.renderer, names_of<RendererKind>());
@@ -42,7 +44,7 @@ void Panel::picture() const {
     ui.tip("Jittered samples per pixel, one after the other while nothing changes");
 }
 
-void Panel::lights() const {
+void PanelSettings::lights() const {
     if (!ui.section("Lights", true)) return;
     LightOptions& lights = state.settings.lights;
     const LightScale scale = automatic_light_scale(lights, facts.scene);
@@ -65,7 +67,7 @@ void Panel::lights() const {
     ui.slider("Seed", lights.seed, {1, 100, false, "%.0f"});
 }
 
-void Panel::clusters() const {
+void PanelSettings::clusters() const {
     if (!ui.section("Clusters", false)) return;
     GridSettings& grid = state.settings.grid;
     ui.slider("Tiles across", grid.tiles_x, {1, 64, true, "%.0f"});
@@ -90,7 +92,7 @@ void Panel::clusters() const {
     fact_line("Boxes", short_count(facts.boxes));
 }
 
-void Panel::camera(const CameraRig& rig) const {
+void PanelSettings::camera(const CameraRig& rig) const {
     if (!ui.section("Camera", false)) return;
     ui.choice("Mode", state.camera_mode, {"fly", "orbit"});
     if (!facts.scene.cameras.empty()) {
@@ -113,7 +115,7 @@ void Panel::camera(const CameraRig& rig) const {
     actions.copy_command |= ui.button("Copy the command that renders this", true);
 }
 
-void Panel::window() const {
+void PanelSettings::window() const {
     if (!ui.section("Window", false)) return;
     ui.checkbox("Adaptive scale", state.adaptive);
     ui.tip("Renders fewer pixels while something moves, all of them at rest");

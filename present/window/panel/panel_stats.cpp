@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "present/window/panel/panel_stats.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <imgui.h>
-
 #include <algorithm>
 
 #include "host/base/text.h"
 #include "host/picture/listed_lights.h"
-#include "present/window/panel/panel.h"
 
 namespace kilolux {
 namespace {
@@ -150,7 +150,7 @@ std::string byte_text(std::uint64_t bytes) {
     return fixed(static_cast<double>(bytes) / kMiB, 1) + " MiB";
 }
 
-void Panel::speed() const {
+void PanelStats::speed() const {
     if (!ui.section("Speed", true)) return;
     std::vector<StageReport> reports;
     if (facts.limits) {
@@ -174,7 +174,7 @@ void Panel::speed() const {
                             byte_text(facts.process_bytes) + " process");
 }
 
-void Panel::error() const {
+void PanelStats::error() const {
     if (!ui.section("Error", false)) return;
     if (facts.error.is_open()) {
         ImGui::ProgressBar(facts.error.share(), {-FLT_MIN, 0.0f}, "float64 reference");
@@ -188,7 +188,7 @@ void Panel::error() const {
     ui.tip("Shows each pixel's relative error, until camera, lights or settings change");
 }
 
-void Panel::device() const {
+void PanelStats::device() const {
     if (!ui.section("Device and scene", false)) return;
     const DeviceInfo& d = facts.device;
     wrapped("OpenCL", fmt::format("{}, {}, {} units, {} lanes", d.name, d.version, d.compute_units,

@@ -2,13 +2,13 @@
 #include "present/window/script/script.h"
 
 #include <fmt/format.h>
-
 #include <fstream>
 #include <map>
 #include <sstream>
 
 #include "host/base/error.h"
 #include "host/base/suggest.h"
+#include "present/window/script/script_player.h"
 
 namespace kilolux {
 namespace {

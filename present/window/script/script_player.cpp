@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "present/window/script/script_player.h"
+
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
-
 #include <cmath>
 #include <map>
 
 #include "host/base/error.h"
 #include "host/base/suggest.h"
 #include "present/cli/option_values.h"
-#include "present/window/script/script.h"
 
 namespace kilolux {
 namespace {
@@ -155,12 +155,12 @@ void ScriptPlayer::add_wait(int frames) {
 void ScriptPlayer::add_settle() {
     add_wait(2);  // the last step reaches the panel first
     actions_.push_back([this] {
-        const Settled settled = stage_.settled();
-        if (settled == Settled::never) {
+        const PictureState state = stage_.picture_state();
+        if (state == PictureState::endless) {
             throw Error(place_ + ": the picture never settles while the lights move");
         }
-        settling_ = settled == Settled::not_yet;
-        return !settling_;
+        waits_ = state == PictureState::pending;
+        return !waits_;
     });
     add_wait(4);  // until the panel's layout of new results is final
 }

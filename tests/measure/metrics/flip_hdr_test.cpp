@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/metrics/flip.h"
-
 #include <gtest/gtest.h>
-
 #include <cmath>
 #include <limits>
 #include <random>
+
+#include "host/measure/metrics/flip.h"
+#include "host/measure/metrics/flip_hdr.h"
 
 namespace kilolux {
 namespace {

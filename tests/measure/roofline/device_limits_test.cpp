@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/roofline/device_limits.h"
-
 #include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <fstream>
 
 #include "host/base/error.h"
 #include "host/gpu/tuning/device_cache.h"
+#include "host/measure/roofline/device_limits.h"
 #include "host/measure/roofline/independent_limits.h"
-#include "host/measure/roofline/limit_kernels.h"
+#include "host/measure/roofline/limit_watch.h"
 #include "tests/support/cache_sandbox.h"
 
 namespace kilolux {

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `kilolux certify`: its exit codes, its table and its JSON.
-#include "present/commands/certify/certify.h"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-
 #include <algorithm>
 #include <chrono>
 #include <csignal>
@@ -12,6 +9,8 @@
 #include <regex>
 
 #include "host/base/error.h"
+#include "present/commands/certify/certify.h"
+#include "present/commands/certify/certify_json.h"
 #include "tests/support/cache_sandbox.h"
 #include "tests/support/child.h"
 #include "tests/support/environment_variable.h"

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // `kilolux bench` as a whole, on pictures small enough for any machine. No time is judged.
 #include <gtest/gtest.h>
-
 #include <signal.h>
 #include <time.h>
-
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "host/measure/bench/row.h"
-#include "present/commands/bench.h"
+#include "present/commands/bench/bench.h"
+#include "present/commands/bench/bench_options.h"
 #include "tests/support/child.h"
 #include "tests/support/environment_variable.h"
 #include "tests/support/messages.h"

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/measure/bench/row.h"
-#include "present/commands/bench.h"
+#include "present/commands/bench/bench_context.h"
 #include "tests/support/cache_sandbox.h"
 #include "tests/support/child.h"
 #include "tests/support/environment_variable.h"

@@ -4,6 +4,7 @@
 
 #include "host/scene/export/export_scene.h"
 #include "present/image/image_file.h"
+#include "present/image/read.h"
 #include "tests/support/box_scene.h"
 #include "tests/support/child.h"
 #include "tests/support/messages.h"

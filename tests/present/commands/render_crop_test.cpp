@@ -6,6 +6,7 @@
 
 #include "present/cli/sequence.h"
 #include "present/image/image_file.h"
+#include "present/image/read.h"
 #include "tests/support/child.h"
 #include "tests/support/messages.h"
 
@@ -53,7 +54,7 @@ TEST(RenderCrop, TilesAreThePictureByShards) {
         int pixels = 0;
         for (int i = 0; i < 6; ++i) {
             const PixelRect rect = tile_rect(grid, i, kWidth, kHeight);
-            const fs::path file = frame_file(tiles, i);
+            const fs::path file = numbered_file(tiles, i);
             const FloatImage tile = read_image(file);
             ASSERT_EQ(tile.width, rect.width);
             ASSERT_EQ(tile.height, rect.height);
@@ -70,7 +71,7 @@ TEST(RenderCrop, TilesAreThePictureByShards) {
         EXPECT_EQ(pixels, kWidth * kHeight);
         std::vector<std::string> words = {"assemble", "-o",
                                           (folder / "joined").string() + extension};
-        for (int i = 0; i < 6; ++i) words.push_back(frame_file(tiles, 5 - i).string());
+        for (int i = 0; i < 6; ++i) words.push_back(numbered_file(tiles, 5 - i).string());
         const ChildResult joined = run_kilolux(words);
         EXPECT_EQ(joined.code, 0) << joined.err;
         EXPECT_TRUE(text_of_file(words[2]) == text_of_file(whole)) << extension;
@@ -91,7 +92,7 @@ TEST(RenderCrop, StatsNameEachTile) {
     for (int i = 0; i < 2; ++i) {
         const nlohmann::json& frame = document.at("frames").at(static_cast<std::size_t>(i));
         EXPECT_EQ(frame.at("frame"), 2 * i + 1);
-        EXPECT_EQ(frame.at("file"), frame_file(tiles, 2 * i + 1).string());
+        EXPECT_EQ(frame.at("file"), numbered_file(tiles, 2 * i + 1).string());
         EXPECT_EQ(frame.at("lights").at("given"), document.at("lights").at("given"));
         EXPECT_GT(frame.at("frame_ms"), 0.0);
     }
@@ -127,7 +128,7 @@ TEST(RenderCrop, ATileIsACrop) {
         const fs::path tile = folder / (std::string("t.#") + extension);
         ASSERT_EQ(render(crop, {"--crop", "35,25,35,25"}).code, 0);
         ASSERT_EQ(render(tile, {"--tiles", "2x2", "--shard", "3/4"}).code, 0);
-        EXPECT_EQ(text_of_file(frame_file(tile, 3)), text_of_file(crop)) << extension;
+        EXPECT_EQ(text_of_file(numbered_file(tile, 3)), text_of_file(crop)) << extension;
     }
     const ChildResult other =
         render(folder / "crop.exr", {"--crop", "34,25,35,25", "--skip-existing"});

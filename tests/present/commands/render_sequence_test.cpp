@@ -2,10 +2,10 @@
 // Sequences of `kilolux render`, whose pictures are coded and written while the next are made.
 #include <gtest/gtest.h>
 #include <time.h>
-
 #include <chrono>
 
 #include "present/image/image_file.h"
+#include "present/image/read.h"
 #include "tests/support/child.h"
 #include "tests/support/messages.h"
 

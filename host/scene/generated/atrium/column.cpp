@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/generated/atrium/pieces.h"
+#include "host/scene/generated/atrium/column.h"
 
 #include <cmath>
 #include <numbers>

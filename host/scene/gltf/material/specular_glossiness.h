@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/scene/gltf/material/material.h"
+#include "host/scene/gltf/material/texture.h"
 
 namespace kilolux {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/gltf/material/material.h"
+#include "host/scene/gltf/material/texture.h"
 
 #include <cmath>
 

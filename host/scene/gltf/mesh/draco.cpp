@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/gltf/mesh/primitive.h"
+#include "host/scene/gltf/mesh/draco.h"
 
 #include <draco/compression/decode.h>
 #include <draco/core/varint_decoding.h>
 #include <draco/metadata/metadata_decoder.h>
-
 #include <optional>
 
 #include "host/scene/gltf/extensions.h"

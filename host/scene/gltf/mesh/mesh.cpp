@@ -5,9 +5,10 @@
 #include <limits>
 #include <numeric>
 
-#include "host/scene/gltf/mesh/directions.h"
+#include "host/scene/gltf/mesh/normals.h"
 #include "host/scene/gltf/mesh/skin.h"
 #include "host/scene/gltf/mesh/solids.h"
+#include "host/scene/gltf/mesh/tangents.h"
 
 namespace kilolux {
 namespace {

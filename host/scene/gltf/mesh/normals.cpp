@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/gltf/mesh/directions.h"
+#include "host/scene/gltf/mesh/normals.h"
 
 #include <algorithm>
 #include <cmath>

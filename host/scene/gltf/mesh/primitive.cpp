@@ -6,6 +6,8 @@
 #include <numeric>
 #include <span>
 
+#include "host/scene/gltf/mesh/draco.h"
+
 namespace kilolux {
 namespace {
 

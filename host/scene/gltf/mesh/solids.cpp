@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/scene/gltf/mesh/directions.h"
+#include "host/scene/gltf/mesh/normals.h"
 
 namespace kilolux {
 namespace {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/gltf/mesh/directions.h"
+#include "host/scene/gltf/mesh/tangents.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <unordered_map>
 
 #include "host/base/hash.h"
+#include "host/scene/gltf/mesh/normals.h"
 
 namespace kilolux {
 namespace {

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "present/program.h"
+
+namespace kilolux {
+
+void add_export_command(Program& program);
+
+}  // namespace kilolux
