@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "host/measure/bench/table.h"
-#include "host/measure/report/row.h"
+#include "host/measure/report/compare.h"
 
 namespace kilolux {
 
