@@ -234,6 +234,7 @@ const std::map<std::string, std::string>& bench_values() {
         {"--output", "out"},
         {"--job", "png,exr"},
         {"--table", "a.csv"},
+        {"--shard", "1/2"},
         {"--resume", "true"},
         {"--json", "true"},
         {"--quick", "true"},
@@ -281,17 +282,18 @@ TEST(Settings, OfBenchThatChangeItsFramesRefuseAResume) {
     const TemporaryFolder folder;
     const DeviceInfo device = describe(choose_device(""));
     const Scene scene = make_generated_scene("grid");
-    const auto context = [&](const BenchOptions& options) {
-        return bench_context(options.shared, bench_frames(options), scene,
-                             choose_camera(options.shared, scene), device);
+    const auto document = [&](const BenchOptions& options) {
+        return result_document(bench_context(options.shared, bench_frames(options), scene,
+                                             choose_camera(options.shared, scene), device),
+                               {}, options.shard);
     };
     const std::filesystem::path file = folder / "bench.context.json";
-    write_text(file, nlohmann::json{{"context", context(bench_options({}))}}.dump());
-    EXPECT_NO_THROW(require_same_context(file, context(bench_options({"--json"}))));
-    for (const char* option : {"--warm-up", "--frames", "--motion"}) {
+    write_text(file, document(bench_options({})).dump());
+    EXPECT_NO_THROW(require_same_context(file, document(bench_options({"--json"}))));
+    for (const char* option : {"--warm-up", "--frames", "--motion", "--shard"}) {
         const BenchOptions changed =
             bench_options({option + std::string("=") + bench_values().at(option)});
-        EXPECT_THROW(require_same_context(file, context(changed)), Error) << option;
+        EXPECT_THROW(require_same_context(file, document(changed)), Error) << option;
     }
 }
 
