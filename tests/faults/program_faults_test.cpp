@@ -83,7 +83,7 @@ TEST_F(Faults, ADeviceOfTwoIsLeftOut) {
     int left_out = 0;
     for (const int call : {600, 900, 1200}) {
         const ChildResult result = render(std::to_string(call) + ":-5", elsewhere_ / "b.y4m");
-        if (result.code == 0) continue;  // there are fewer calls
+        if (result.code == 0) break;  // there are fewer calls
         EXPECT_EQ(result.code, 1) << result.err;
         left_out += has(result.err, " is left out: ") ? 1 : 0;
         EXPECT_TRUE(has(result.err, "CL_OUT_OF_RESOURCES")) << result.err;
@@ -105,7 +105,7 @@ TEST_F(Faults, ADeviceOfTwoThatMakeAPictureIsLeftOut) {
     int left_out = 0;
     for (const int call : {600, 900, 1200, 1500, 1800}) {
         const ChildResult result = render(std::to_string(call) + ":-5", elsewhere_ / "b.png");
-        if (result.code == 0) continue;  // there are fewer calls
+        if (result.code == 0) break;  // there are fewer calls
         EXPECT_EQ(result.code, 1) << result.err;
         EXPECT_TRUE(has(result.err, "CL_OUT_OF_RESOURCES")) << result.err;
         if (!has(result.err, " is left out: ")) continue;  // of the first renderer's beginning
@@ -141,7 +141,7 @@ TEST_F(Faults, ADeviceOfTwoThatMeasureAReportIsLeftOut) {
     int left_out = 0;
     for (const int call : {300, 700, 1800}) {
         const ChildResult result = report(std::to_string(call) + ":-5");
-        if (result.code == 0) continue;  // there are fewer calls
+        if (result.code == 0) break;  // there are fewer calls
         SCOPED_TRACE(call);
         EXPECT_EQ(result.code, 1) << result.err;
         EXPECT_TRUE(has(result.err, "CL_OUT_OF_RESOURCES")) << result.err;
@@ -410,13 +410,13 @@ TEST_F(Faults, ADeviceThatIsLostEndsTheSequence) {
     };
     ASSERT_EQ(render({}, "whole").code, 0);
     std::set<std::size_t> made;
-    for (const int call : {400, 1000, 1200, 1300, 1500, 1700}) {
+    for (int call = 400;; call += 200) {
         const std::string folder = fmt::to_string(call);
         const ChildResult result =
             render(with_environment({"OPENCL_LAYERS=" KILOLUX_FAULT_LAYER,
                                      fmt::format("KILOLUX_FAULT={}:-2:lost", call)}),
                    folder);
-        if (result.code == 0) continue;  // there are fewer calls
+        if (result.code == 0) break;  // there are fewer calls
         SCOPED_TRACE(call);
         expect_failure(result, "CL_DEVICE_NOT_AVAILABLE");
         EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
@@ -432,6 +432,7 @@ TEST_F(Faults, ADeviceThatIsLostEndsTheSequence) {
                       text_of_file(elsewhere_ / "whole" / name));
         }
     }
+    ASSERT_FALSE(made.empty()) << "no call was lost";
     EXPECT_LT(*made.rbegin(), 6u) << "no file but pictures";
     EXPECT_GT(made.size(), 1u) << "at several frames of the sequence";
 }
