@@ -45,7 +45,7 @@ Result read_result(const fs::path& result) {
         !out.document.contains("points")) {
         throw Error(document.string() + ": has no context or no list of the sweep's points");
     }
-    if (is_bench_table(out.table) && !out.document.contains("limits"))
+    if (is_bench_table(out.table) && !out.document.value("limits", Json()).is_object())
         throw Error(document.string() + ": has no limits: the run did not end; --resume ends it");
     return out;
 }

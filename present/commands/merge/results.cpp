@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "host/base/error.h"
+#include "host/base/log.h"
 #include "host/base/text.h"
 #include "present/commands/bench/bench.h"
 #include "present/commands/bench/bench_context.h"
@@ -17,12 +18,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The conditions under which a result was measured.
+// The conditions under which a result was measured: a line to show, then the tuning.
 std::string conditions_of(const Result& result) {
-    std::string out;
+    std::vector<std::string> parts;
     for (const ConditionColumn& column : kConditionColumns)
-        out += fmt::format("{} {}, ", column.name, condition_of(result, column));
-    return out + "tuning " + result.document.at("context").at("tuning").dump();
+        parts.push_back(fmt::format("{} {}", column.name, condition_of(result, column)));
+    return joined(parts) + "\n" + result.document.at("context").at("tuning").dump();
 }
 
 // The result of these rows that was measured under each conditions. Throws where two were.
@@ -41,16 +42,25 @@ std::map<std::string, std::size_t> result_by_conditions(const std::vector<Result
     return out;
 }
 
-// Throws where points are missing; `of` names the results, "" for all.
-void refuse_missing(const std::vector<std::string>& missing, std::size_t points,
-                    const std::string& of) {
+// Throws where no result has a point.
+void refuse_missing(const std::vector<std::string>& missing, std::size_t points) {
     if (missing.empty()) return;
     constexpr std::size_t kNamed = 3;
     std::string names;
     for (std::size_t i = 0; i < std::min(kNamed, missing.size()); ++i)
         names += fmt::format("{}'{}'", i > 0 ? ", " : "", missing[i]);
-    throw Error(fmt::format("{} of {} points are in no result{}: {}{}", missing.size(), points, of,
-                            names, missing.size() > kNamed ? ", ..." : ""));
+    throw Error(fmt::format("{} of {} points are in no result: {}{}", missing.size(), points, names,
+                            missing.size() > kNamed ? ", ..." : ""));
+}
+
+// Results of other conditions may complete each other: what each set of them lacks is said.
+void warn_of_missing(const std::map<std::string, std::size_t>& lacking, std::size_t points) {
+    if (lacking.size() < 2) return;
+    for (const auto& [conditions, count] : lacking) {
+        if (count > 0)
+            warn(fmt::format("{}: {} of {} points are missing",
+                             conditions.substr(0, conditions.find('\n')), count, points));
+    }
 }
 
 // `was` and `is` as a list, without repetition.
@@ -76,19 +86,19 @@ std::vector<ResultRow> rows_in_order(const std::vector<Result>& results) {
             place->second.push_back({i, row});
         }
     }
-    std::map<std::string, std::vector<std::string>> missing;  // by conditions
-    for (const Result& result : results) missing[conditions_of(result)];
+    std::map<std::string, std::size_t> lacking;  // points, by conditions
+    for (const Result& result : results) lacking[conditions_of(result)] = 0;
     std::vector<ResultRow> out;
+    std::vector<std::string> missing;
     for (const std::string& point : points) {
         const std::vector<ResultRow>& rows = found[point];
         const auto measured = result_by_conditions(results, point, rows);
-        for (auto& [conditions, names] : missing) {
-            if (!measured.contains(conditions)) names.push_back(point);
-        }
+        if (rows.empty()) missing.push_back(point);
+        for (auto& [conditions, count] : lacking) count += measured.contains(conditions) ? 0 : 1;
         out.insert(out.end(), rows.begin(), rows.end());
     }
-    for (const auto& [conditions, names] : missing)
-        refuse_missing(names, points.size(), missing.size() > 1 ? " of " + conditions : "");
+    refuse_missing(missing, points.size());
+    warn_of_missing(lacking, points.size());
     return out;
 }
 

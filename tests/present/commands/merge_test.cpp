@@ -157,7 +157,8 @@ TEST_F(Merge, RefusesOtherConditionsUnlessTheyAreKept) {
                        file(other + "/bench.csv") + ": measured under other conditions than " +
                            file(parts[0] + "/bench.csv") + ": " + name + " was \"");
         const ChildResult kept = merge("kept", {parts[0], other}, {"--keep-differences"});
-        EXPECT_EQ(kept.code, 0) << kept.err;
+        ASSERT_EQ(kept.code, 0) << kept.err;
+        EXPECT_TRUE(contains(kept.err, ": 2 of 4 points are missing")) << kept.err;
         const TextTable table = parse_csv(text_of_file(results_ / "kept/bench.csv"));
         EXPECT_EQ(std::vector(table.columns.end() - 3, table.columns.end()),
                   (std::vector<std::string>{"commit", "device", "driver"}));
@@ -169,6 +170,8 @@ TEST_F(Merge, RefusesOtherConditionsUnlessTheyAreKept) {
     const std::string settings = changed(parts[1], "/context/settings/light-seed", 7);
     expect_refused({parts[0], settings}, "settings/light-seed was 1, is 7");
     expect_refused({parts[0], settings}, "settings/light-seed was 1, is 7", {"--keep-differences"});
+    const std::string unfinished = changed(parts[1], "/limits", nullptr);
+    expect_refused({parts[0], unfinished}, "has no limits: the run did not end");
     const std::string sweep = changed(parts[1], "/points/3", "lights 5");
     expect_refused({parts[0], sweep}, "points/3 was \"");
 }
