@@ -7,6 +7,7 @@ tests, or whose names hold SUBSTRING. g++'s own options and precompiled headers 
 Without SUBSTRING the files of FUZZ are compiled one by one, too, which no unit of an ordinary build has. With --alone it is
 the files of ALONE, to which a unit would lend its includes. Only headers of libraries, compiled once, come before each.
 """
+import collections
 import concurrent.futures
 import glob
 import json
@@ -23,6 +24,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 FUZZ = ("tests/fuzz",)
 ALONE = ("present/cli", "present/commands", "present/image", "present/video")
 LIBRARIES = ("kernels/shared", "host", "present/cli", "present/image", "present/video", "present/commands")
+APART = ("kilolux_present.dir/",)
 ALONE_HAS = "/kilolux_present.dir/"  # in the output of the unit whose options they get
 
 
@@ -66,6 +68,27 @@ def compile_alone(units, folders):
             return list(pool.map(compile_file, (path for folder in folders for path in files_under(folder, ".cpp"))))
 
 
+def compile_targets(units):
+    """The return codes of the units' targets; those of a target are compiled as one, which reads its headers once."""
+    targets = collections.defaultdict(list)
+    for unit in units:
+        output = unit.get("output") or unit["command"].split(" -o ")[1]
+        # Files of APART may have equal names in unnamed namespaces.
+        name = output.split()[0] if any(name in output for name in APART) else output.split(".dir/")[0]
+        targets[unit["directory"], name, tuple(clang_command(unit))].append(unit["file"])
+    with tempfile.TemporaryDirectory() as folder:
+
+        def compile_target(item):
+            (directory, name, command), files = item
+            joint = os.path.join(folder, name.replace("/", "_") + ".cpp")
+            with open(joint, "w", encoding="utf-8") as file:
+                file.writelines(f'#include "{path}"\n' for path in sorted(files))
+            return subprocess.run([*command, joint], cwd=directory, check=False).returncode
+
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            return list(pool.map(compile_target, targets.items()))
+
+
 def main():
     build, wanted = sys.argv[1], sys.argv[2] if len(sys.argv) > 2 else ""
     with open(os.path.join(build, "compile_commands.json"), encoding="utf-8") as file:
@@ -79,11 +102,7 @@ def main():
     if not chosen:
         sys.exit(f"{build}: no unit to compile")
 
-    def compile_unit(unit):
-        return subprocess.run([*clang_command(unit), unit["file"]], cwd=unit["directory"], check=False).returncode
-
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        codes = list(pool.map(compile_unit, chosen))
+    codes = compile_targets(chosen)
     if not wanted:
         codes += compile_alone(units, FUZZ)
     print(f"{len(codes) - codes.count(0)} of {len(codes)} units do not compile with clang")

@@ -4,6 +4,7 @@
 
 #include "host/base/hash.h"
 #include "tests/support/child.h"
+#include "tests/support/full.h"
 #include "tests/support/paths.h"
 #include "tests/support/render_fixture.h"
 
@@ -29,7 +30,7 @@ TEST(Determinism, LanesGroupsChunksAndGridsChangeNoBit) {
     };
     const std::uint64_t expected = hash(usual());
     for (int again = 0; again < 3; ++again) EXPECT_EQ(hash(usual()), expected);
-    for (const int lanes : {1, 4, 16}) {
+    for (const int lanes : lane_widths()) {
         RenderSettings settings = usual();
         settings.kernels.lanes = lanes;
         EXPECT_EQ(hash(settings), expected) << lanes << " lanes";

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "host/render/plan/kernel_choice.h"
+#include "tests/support/full.h"
 #include "tests/support/render_fixture.h"
 
 namespace kilolux {
@@ -136,7 +137,7 @@ TEST(Bloom, IsMirrorSymmetric) {
 TEST(Bloom, SameBitsForEveryLaneWidth) {
     const BloomPicture source = noise(83, 61);
     BloomPicture expected = bloomed(gpu_of(1), source, 0.5f);
-    for (const int lanes : {2, 4, 8, 16}) {
+    for (const int lanes : lane_widths()) {
         BloomPicture found = bloomed(gpu_of(lanes), source, 0.5f);
         for (uint y = 0; y < 61; ++y) {
             for (uint x = 0; x < 83; ++x) {

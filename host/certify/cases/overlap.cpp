@@ -17,14 +17,15 @@ struct Plane {
 
 // A cell of the frustum: four sides through the camera, two ends. Not of the first slice, which
 // begins at the camera, nor of the last, which has no end.
-using Cell = std::array<Plane, 6>;
+using ClusterPlanes = std::array<Plane, 6>;
 
 Plane side(glm::dvec3 a, glm::dvec3 b, glm::dvec3 inside) {
     const glm::dvec3 n = glm::normalize(glm::cross(a, b));
     return {glm::dot(n, inside) > 0 ? -n : n, 0.0};
 }
 
-Cell cell_of(const View& view, const ClusterGrid& grid, uint column, uint row, uint slice) {
+ClusterPlanes planes_of_cluster(const View& view, const ClusterGrid& grid, uint column, uint row,
+                                uint slice) {
     const auto ray = [&](double px, double py) { return position_at(view, px, py, 1.0); };
     const double x0 = column * grid.tile_width;
     const double x1 = x0 + grid.tile_width;
@@ -39,7 +40,7 @@ Cell cell_of(const View& view, const ClusterGrid& grid, uint column, uint row, u
             Plane{{0, 0, -1}, depth_of_slice(grid, slice + 1)}};
 }
 
-bool is_inside(const Cell& cell, glm::dvec3 p, double slack) {
+bool is_inside(const ClusterPlanes& cell, glm::dvec3 p, double slack) {
     return std::all_of(cell.begin(), cell.end(), [&](const Plane& plane) {
         return dot(plane.normal, p) - plane.offset <= slack;
     });
@@ -70,7 +71,7 @@ std::optional<glm::dvec3> corner(const Plane& a, const Plane& b, const Plane& c)
 
 // Distance of p to the cell. The nearest point is the projection of p on a face, edge or corner, so
 // it is the nearest of those projections that lie in the cell.
-double distance_to(const Cell& cell, glm::dvec3 p) {
+double distance_to(const ClusterPlanes& cell, glm::dvec3 p) {
     const double slack = 1e-9 * (1.0 + length(p));
     if (is_inside(cell, p, 0.0)) return 0.0;
     double least = 1e300;
@@ -110,8 +111,8 @@ struct CoarseResult {
 void count_cell(Overlap& sum, const LightingCase& input, const CoarseResult& result, uint index) {
     const ClusterGrid& grid = result.grid;
     const uint slice = index / grid.tiles_x / grid.tiles_y;
-    const Cell cell = cell_of(input.image.view, grid, index % grid.tiles_x,
-                              index / grid.tiles_x % grid.tiles_y, slice);
+    const ClusterPlanes cell = planes_of_cluster(input.image.view, grid, index % grid.tiles_x,
+                                                 index / grid.tiles_x % grid.tiles_y, slice);
     const double size = size_of(input.image.view, grid, slice);
     const auto list = result.lists.coarse_of(index);
     for (uint light = 0; light < input.lights.size(); ++light) {

@@ -74,7 +74,7 @@ struct CsfTerm {
 constexpr std::array<CsfTerm, 1> kAchromatic = {{{1.0, 0.0047}}};
 constexpr std::array<CsfTerm, 1> kRedGreen = {{{1.0, 0.0053}}};
 constexpr std::array<CsfTerm, 2> kBlueYellow = {{{34.1, 0.04}, {13.5, 0.025}}};
-constexpr double kWidest = 0.04;  // largest b: one radius serves all
+constexpr double kLargestB = 0.04;  // largest b: one radius serves all
 
 constexpr double kFeatureWidth = 0.082;  // of an edge or point [degree]
 
@@ -82,7 +82,7 @@ std::vector<double> csf_taps(double b, double pixels_per_degree) {
     const double sigma =
         std::sqrt(b / (2.0 * std::numbers::pi * std::numbers::pi)) * pixels_per_degree;
     const double widest =
-        std::sqrt(kWidest / (2.0 * std::numbers::pi * std::numbers::pi)) * pixels_per_degree;
+        std::sqrt(kLargestB / (2.0 * std::numbers::pi * std::numbers::pi)) * pixels_per_degree;
     return gaussian_taps(sigma, static_cast<int>(std::ceil(3.0 * widest)));
 }
 

@@ -34,7 +34,7 @@ struct TexelCoordinate {
     double fraction;
 };
 
-TexelCoordinate split(double coordinate) {
+TexelCoordinate split_coordinate(double coordinate) {
     const double clamped = std::clamp(coordinate, -1e9, 1e9);
     const double whole = std::floor(clamped);
     return {static_cast<int>(whole), clamped - whole};
@@ -43,13 +43,14 @@ TexelCoordinate split(double coordinate) {
 std::size_t slot(TextureEncoding encoding) { return static_cast<std::size_t>(encoding); }
 
 glm::dvec4 nearest(const MipLevel& level, const Sampler& sampler, const glm::dvec2& uv) {
-    return level.texel(wrapped(split(uv.x * level.width).index, level.width, sampler.wrap_s),
-                       wrapped(split(uv.y * level.height).index, level.height, sampler.wrap_t));
+    return level.texel(
+        wrapped(split_coordinate(uv.x * level.width).index, level.width, sampler.wrap_s),
+        wrapped(split_coordinate(uv.y * level.height).index, level.height, sampler.wrap_t));
 }
 
 glm::dvec4 bilinear(const MipLevel& level, const Sampler& sampler, const glm::dvec2& uv) {
-    const TexelCoordinate s = split(uv.x * level.width - 0.5);
-    const TexelCoordinate t = split(uv.y * level.height - 0.5);
+    const TexelCoordinate s = split_coordinate(uv.x * level.width - 0.5);
+    const TexelCoordinate t = split_coordinate(uv.y * level.height - 0.5);
     const auto at = [&](int i, int j) {
         return level.texel(wrapped(s.index + i, level.width, sampler.wrap_s),
                            wrapped(t.index + j, level.height, sampler.wrap_t));

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-bool is_finite(const glm::dvec3& v) {
+bool is_finite_vector(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
@@ -86,9 +86,10 @@ bool is_usable(const SceneLight& light) {
     const glm::dvec3 intensity(light.intensity);
     const LightKind& kind = kind_of(light);
     const bool aimed = (!kind.is_aimed && light.profile < 0) ||
-                       (is_finite(light.direction) && glm::length(light.direction) > 0.0);
-    return is_finite(intensity) && std::min({intensity.x, intensity.y, intensity.z}) >= 0.0 &&
-           is_finite(light.position) && aimed && has_good_numbers(with_range(light));
+                       (is_finite_vector(light.direction) && glm::length(light.direction) > 0.0);
+    return is_finite_vector(intensity) &&
+           std::min({intensity.x, intensity.y, intensity.z}) >= 0.0 &&
+           is_finite_vector(light.position) && aimed && has_good_numbers(with_range(light));
 }
 
 // The light with angles as KHR_lights_punctual allows them: inner < outer <= 90 degrees.

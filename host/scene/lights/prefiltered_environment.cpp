@@ -72,13 +72,13 @@ Environment resampled(const Environment& from, int height) {
 }
 
 // A texel in a sum over an environment.
-struct Texel {
+struct SkyTexel {
     glm::dvec3 direction;
     double solid_angle;
 };
 
-std::vector<Texel> texels_of(const Environment& e) {
-    std::vector<Texel> out;
+std::vector<SkyTexel> texels_of(const Environment& e) {
+    std::vector<SkyTexel> out;
     out.reserve(e.rows.size());
     for (int y = 0; y < e.height; ++y) {
         for (int x = 0; x < e.width; ++x) out.push_back({e.direction(x, y), e.solid_angle(y)});
@@ -111,7 +111,7 @@ class Lobe {
 };
 
 // The environment's mean, weighted by the lobe about `axis`.
-glm::dvec3 mean_around(const Environment& e, const std::vector<Texel>& texels, const Lobe& lobe,
+glm::dvec3 mean_around(const Environment& e, const std::vector<SkyTexel>& texels, const Lobe& lobe,
                        const glm::dvec3& axis) {
     const double from_top = std::acos(std::clamp(axis.y, -1.0, 1.0));
     const auto row = [&](double angle) {
@@ -146,7 +146,7 @@ glm::dvec3 mean_around(const Environment& e, const std::vector<Texel>& texels, c
 Environment filtered(const Environment& environment, const LevelPlan& plan) {
     Environment source = shrunk(environment, plan.source_width);
     if (plan.roughness == 0.0) return source;
-    const std::vector<Texel> texels = texels_of(source);
+    const std::vector<SkyTexel> texels = texels_of(source);
     const Lobe lobe(plan.roughness);
     return painted_environment(plan.width / 2, [&](const glm::dvec3& direction) {
         return mean_around(source, texels, lobe, direction);

@@ -11,6 +11,7 @@
 #include <numeric>
 
 #include "tests/opencl/lists/cull_scenarios.h"
+#include "tests/support/full.h"
 #include "tests/support/slice_search.h"
 #include "tests/support/test_gpu.h"
 
@@ -216,7 +217,7 @@ TEST(CullLights, ListsAreTheSameForEveryTuningLaneWidthAndRun) {
         ASSERT_TRUE(lists_of(test_gpu(), c, tuning) == expected) << "tuning " << index;
         ++index;
     }
-    for (const int lanes : {1, 2, 4, 8, 16}) {
+    for (const int lanes : lane_widths()) {
         const Gpu gpu = test_gpu(lanes);
         ASSERT_TRUE(lists_of(gpu, c, default_tuning(gpu.info)) == expected) << "lanes " << lanes;
     }

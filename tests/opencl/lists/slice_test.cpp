@@ -11,6 +11,7 @@
 #include "host/certify/synthetic/run_probe.h"
 #include "host/gpu/buffer.h"
 #include "host/stages/lists/build_clusters.h"
+#include "tests/support/full.h"
 #include "tests/support/slice_search.h"
 #include "tests/support/test_gpu.h"
 
@@ -73,7 +74,7 @@ std::vector<float> odd_depths() {
 
 void expect_slices(const ClusterGrid& grid, const std::vector<float>& depths) {
     std::vector<std::vector<uint>> found;
-    for (const int lanes : {1, 8, 16}) found.push_back(device_slices(lanes, grid, depths));
+    for (const int lanes : lane_widths()) found.push_back(device_slices(lanes, grid, depths));
     for (std::size_t i = 0; i < depths.size(); ++i) {
         const uint expected = slice_by_search(grid, depths[i]);
         ASSERT_EQ(slice_of_depth(grid, depths[i]), expected) << "host, z = " << depths[i];
@@ -97,7 +98,7 @@ TEST(Slice, HostAndDeviceAgreeOnOddDepths) {
 TEST(Slice, DepthThatIsNoNumberStaysWithinTheGrid) {
     const ClusterGrid grid = make_cluster_grid({}, 640, 480);
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    for (const int lanes : {1, 8, 16}) {
+    for (const int lanes : lane_widths()) {
         for (const uint slice : device_slices(lanes, grid, std::vector<float>(16, nan))) {
             EXPECT_LT(slice, grid.slices) << lanes << " lanes";
         }

@@ -12,6 +12,7 @@
 
 #include "host/certify/synthetic/synthetic.h"
 #include "host/stages/lists/mask_tiles.h"
+#include "tests/support/full.h"
 #include "tests/support/test_gpu.h"
 
 namespace kilolux {
@@ -69,7 +70,7 @@ struct Feed {
 };
 
 TEST(AdaptiveSamples, StillLightNeedsTheLeastAndKeepsItsBits) {
-    for (const int lanes : {1, 4, 16}) {
+    for (const int lanes : lane_widths()) {
         Feed feed{test_gpu(lanes), view_with(53, 41)};
         const PixelLight light = [](uint x, uint y) {
             return 0.1f * static_cast<float>(x) / static_cast<float>(y + 1);

@@ -12,6 +12,7 @@
 #include "host/certify/synthetic/run_probe.h"
 #include "kernels/shared/tone_curve.h"
 #include "tests/support/every_width.h"
+#include "tests/support/full.h"
 #include "tests/support/test_gpu.h"
 
 namespace kilolux {
@@ -80,7 +81,7 @@ std::vector<float> boundary_values() {
 
 TEST(Tonemap, RoundsToTheNearestCodeAtEveryBoundary) {
     const std::vector<float> values = boundary_values();
-    for (const int lanes : {1, 8, 16}) {
+    for (const int lanes : lane_widths()) {
         for (const float ev : {0.0f, 3.0f, -5.0f}) {
             Colors colors;
             const std::size_t n = values.size();
@@ -183,7 +184,7 @@ TEST(Tonemap, CurvesAgreeWithDouble) {
 }
 
 TEST(Tonemap, NotANumberAndNegativeAreBlackAndInfiniteIsWhite) {
-    for (const int lanes : {1, 8, 16}) {
+    for (const int lanes : lane_widths()) {
         for (const int curve :
              {TONE_CURVE_NONE, TONE_CURVE_NEUTRAL, TONE_CURVE_ACES, TONE_CURVE_AGX}) {
             SCOPED_TRACE("lanes " + std::to_string(lanes) + ", curve " + std::to_string(curve));

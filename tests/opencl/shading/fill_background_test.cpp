@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "host/certify/synthetic/synthetic.h"
+#include "tests/support/full.h"
 #include "tests/support/test_gpu.h"
 
 namespace kilolux {
@@ -115,7 +116,7 @@ void expect_map(const std::vector<float>& filled, const View& view, const Map& m
 
 TEST(FillBackground, EveryDirection) {
     const Map map = noise_map(64);
-    for (const int lanes : {1, 4, 16}) {
+    for (const int lanes : lane_widths()) {
         const Gpu gpu = test_gpu(lanes);
         ViewShape shape;
         shape.width = 53;

@@ -12,6 +12,7 @@
 #include "host/certify/synthetic/host_lists.h"
 #include "kernels/shared/evaluate_modes.h"
 #include "tests/opencl/shading/shading_reference.h"
+#include "tests/support/full.h"
 #include "tests/support/test_gpu.h"
 
 namespace kilolux {
@@ -218,7 +219,7 @@ bool same_for_lanes(const Gpu& gpu, const std::vector<float>& a, const std::vect
 TEST(Shade, EveryLaneWidthAndTuningGivesTheSameBitsAndLists) {
     const FrameInput in = usual_input(SHADING_PBR, 2000);
     const Frame expected = shade_frame(test_gpu(), in, default_tuning(test_gpu().info));
-    for (const int lanes : {1, 2, 4, 8, 16}) {
+    for (const int lanes : lane_widths()) {
         const Gpu gpu = test_gpu(lanes);
         const Frame frame = shade_frame(gpu, in, default_tuning(gpu.info));
         EXPECT_TRUE(same_for_lanes(gpu, frame.listed, expected.listed)) << lanes << " lanes";

@@ -8,6 +8,7 @@
 #include "host/base/formats/half.h"
 #include "host/certify/synthetic/host_lists.h"
 #include "host/certify/synthetic/synthetic.h"
+#include "tests/support/full.h"
 #include "tests/support/test_gpu.h"
 
 namespace kilolux {
@@ -128,7 +129,7 @@ void expect_packed_attributes(Synthetic& image, const Planes& planes, uint x, ui
 }
 
 TEST(DecodeGBuffer, PackedAttributesAtEveryLaneWidth) {
-    for (const int lanes : {1, 2, 4, 8, 16}) {
+    for (const int lanes : lane_widths()) {
         const Gpu gpu = test_gpu(lanes);
         const KernelFeatures features = features_of(GBUFFER_PACKED);
         Synthetic image =

@@ -32,9 +32,9 @@ using namespace atrium_plan;
 void add_sector(MeshBuilder& builder, glm::dvec2 center, glm::dvec2 half, double sign, bool swap) {
     const double a = swap ? half.y : half.x;
     const double b = swap ? half.x : half.y;
-    constexpr int kAcross = 14;
-    constexpr int kAlong = 7;
-    builder.patch(kAcross, kAlong, [&](double u, double v) {
+    constexpr int kColumns = 14;
+    constexpr int kRows = 7;
+    builder.patch(kColumns, kRows, [&](double u, double v) {
         const double t = std::sin(0.5 * std::numbers::pi * v);  // |z| / b, dense at the wall
         const double turn = std::numbers::pi * (u - 0.5);
         const double s = std::sin(turn) * t;  // x / a

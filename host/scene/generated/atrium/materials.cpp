@@ -21,7 +21,7 @@ constexpr std::array<ImageMaker, 13> kMakers = {
     paving_images, voussoir_images,  wood_images,  terracotta_images, mosaic_images,
     water_images,  leaf_images,      cloth_images};
 
-struct MaterialRow {
+struct NamedMaterial {
     const char* name;
     int images;
     double metres;     // that a texture covers
@@ -31,7 +31,7 @@ struct MaterialRow {
     bool double_sided;
 };
 
-constexpr std::array<MaterialRow, static_cast<std::size_t>(AtriumMaterial::count)> kRows = {{
+constexpr std::array<NamedMaterial, static_cast<std::size_t>(AtriumMaterial::count)> kRows = {{
     {"marble", 0, 2.0, false, {1, 1, 1}, 0.30f, false},
     {"limestone", 1, 2.0, false, {1, 1, 1}, 0.75f, false},
     {"brick", 2, 1.6, true, {1, 1, 1}, 1.0f, false},
@@ -83,7 +83,7 @@ void add_atrium_materials(Scene& scene, std::uint64_t seed) {
         set.roughness = add_texture(scene, std::move(images.roughness));
         sets.push_back(set);
     }
-    for (const MaterialRow& row : kRows) {
+    for (const NamedMaterial& row : kRows) {
         Material material;
         material.name = row.name;
         material.base_color = glm::vec4(row.factor, 1.0f);
@@ -103,7 +103,7 @@ void add_atrium_materials(Scene& scene, std::uint64_t seed) {
 int add_atrium_mesh(Scene& scene, const char* name, const MeshBuilder& builder,
                     AtriumMaterial material) {
     const auto index = static_cast<int>(material);
-    const MaterialRow& row = kRows[static_cast<std::size_t>(index)];
+    const NamedMaterial& row = kRows[static_cast<std::size_t>(index)];
     return add_mesh(scene, builder.build(name, index, 1.0 / row.metres, row.normal_map));
 }
 
