@@ -66,6 +66,13 @@ void add_question(CLI::App& command, const std::string& heading, const std::stri
     command.add_flag(name, meaning)->group(heading);
 }
 
+void add_device_question(CLI::App& command) {
+    const CLI::Option* device = command.get_option_no_throw("--device");
+    if (device == nullptr) return;
+    add_question(command, device->get_group(), "--list-devices",
+                 "Print the OpenCL devices and leave");
+}
+
 OptionBuilder::OptionBuilder(SettingVisitor visitor, std::string heading)
     : visitor_(std::move(visitor)), heading_(std::move(heading)) {}
 

@@ -204,11 +204,6 @@ void visit_device(const SettingVisitor& f, RenderSettings& s) {
 
 }  // namespace
 
-void add_shared_options(CLI::App& command, SharedOptions& options) {
-    add_options(command, options);
-    add_question(command, "Device", "--list-devices", "Print the OpenCL devices and leave");
-}
-
 void begin_command(const SharedOptions& options, bool compares) {
     refuse_if(options.quiet && options.verbose, "--quiet and --verbose exclude each other");
     refuse_if(options.show_error && !compares,
