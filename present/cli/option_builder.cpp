@@ -48,9 +48,9 @@ void add_option(CLI::App& command, const Setting& setting) {
                       [take = setting.take](std::int64_t count) {
                           take(count > 0 ? "true" : "false");
                       },
-                      text.meaning)
+                      text.described())
                   ->check(flag_problem)
-            : command.add_option_function<std::string>(text.name, setting.take, text.meaning)
+            : command.add_option_function<std::string>(text.name, setting.take, text.described())
                   ->type_name(text.form)
                   ->default_str(text.default_text.empty() && setting.show ? setting.show()
                                                                           : text.default_text);

@@ -262,10 +262,11 @@ void visit_settings(ReportOptions& options, const SettingVisitor& f) {
              "In what the settings differ, one at a time. shadows: none, exact, and sampled "
              "by 1, 4 and 16 rays; it makes --shadows exact the default"},
             options.axes, setting_axis_names())
-        .count({"--warm-up", "N", "2", "Frames before the measured ones, in both rounds"},
+        .count({"--warm-up", "N", "2", "Frames before the measured ones, in both rounds", kNeither,
+                "1"},
                options.warm_up, {0, 1'000'000})
-        .count({"--frames", "N", "20", "Measured frames; slow settings get fewer"}, options.frames,
-               {1, 1'000'000})
+        .count({"--frames", "N", "20", "Measured frames; slow settings get fewer", kNeither, "1"},
+               options.frames, {1, 1'000'000})
         .value({"--shard", "I/N", "0/1", shard_meaning("setting")}, options.shard, parse_shard)
         .flag("--check-default", options.check_default,
               "Exit with 3 where another setting is faster beyond noise and as exact")

@@ -112,7 +112,7 @@ void visit_settings(ViewOptions& options, const SettingVisitor& f) {
         .flag("--fresh", options.fresh,
               "Begin with the defaults instead of the last window's settings; keep nothing")
         .count({"--exit-after", "N", "never",
-                "Leave when N pictures have been made, also while minimised"},
+                "Leave when N pictures have been made, also while minimised", kNeither, "1"},
                options.exit_after, {1, 1'000'000'000})
         .text({"--screenshot", "FILE", "", "Write what the window shows at the end"},
               options.screenshot)

@@ -96,6 +96,22 @@ class CommandOptions {
         }
     }
 
+    void each_number_has_a_unit() const {
+        Options options;
+        CLI::App app;
+        declare_(app, options);
+        for (const Setting& setting : settings_of(options)) {
+            const std::string& unit = setting.text.unit;
+            const bool is_number = setting.kind == SettingKind::number ||
+                                   setting.kind == SettingKind::count ||
+                                   setting.kind == SettingKind::numbers;
+            EXPECT_FALSE(is_number && unit.empty()) << setting.option();
+            const std::string help = app.get_option(setting.option())->get_description();
+            const bool is_said = help.ends_with("[" + unit + "]");
+            EXPECT_EQ(is_said, !unit.empty() && unit != "1") << setting.option() << ": " << help;
+        }
+    }
+
     // `members` gives those that the options set.
     template <typename Members>
     void reach_every(Members members) const {
@@ -135,6 +151,7 @@ void walk(void (*declare)(CLI::App&, Options&), Members members, const Texts& ow
     const CommandOptions options(declare, own, required);
     options.each_changes_itself_alone();
     options.each_comes_from_config_files();
+    options.each_number_has_a_unit();
     options.reach_every(members);
 }
 

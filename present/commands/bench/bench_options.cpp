@@ -48,21 +48,28 @@ std::string with_commas(std::string_view text) {
 void visit_sweep(BenchAxes& a, const SettingVisitor& f) {
     using Text = const std::string&;
     OptionBuilder(f, "Sweeps: every combination of these lists is measured")
-        .value({"--lights", "N,A:B:STEP,A:B:*F", "5000", "Generated lights"}, a.lights,
+        .value({"--lights", "N,A:B:STEP,A:B:*F", "5000", "Generated lights", kNeither, "1"},
+               a.lights,
                [](Text name, Text text) {
                    return parse_count_sweep(name, text, kLightsRange.min, kLightsRange.max);
                })
         .value(
             {"--renderer", "NAME,...", "deferred", "deferred, forward-plus, forward, deferred-all"},
             a.renderers, choices_parser<RendererKind>(names_of<RendererKind>()))
-        .value({"--resolution", "W,H;W,H", "1920,1080", "Sizes in pixels"}, a.resolutions,
+        .value({"--resolution", "W,H;W,H", "1920,1080", "Sizes", kNeither, "px"}, a.resolutions,
                parse_resolutions)
         .value({"--grid", "X,Y,S;X,Y,S", "16,9,4",
-                "Coarse grids: tiles across and down, slices for each doubling of depth"},
+                "Coarse grids: tiles across and down, slices for each doubling of depth", kNeither,
+                "1"},
                a.grids, parse_grids)
-        .value({"--lanes", "N,...", "auto", "auto, 1, 2, 4, 8, 16"}, a.lanes, parse_lane_list)
-        .value({"--gbuffer", "NAME,...", "packed", "packed, full, half, normal-xy, oct-2x4"},
-               a.gbuffers, choices_parser<uint>(gbuffer_choices().names));
+        .value({"--lanes", "N,...", "auto", "auto, 1, 2, 4, 8, 16", kNeither, "1"}, a.lanes,
+               parse_lane_list)
+        .value(SettingKind::list,
+               {"--gbuffer", "NAME,...", "packed", "packed, full, half, normal-xy, oct-2x4"},
+               [&a](Text name, Text text) {
+                   a.gbuffers = choices_parser<uint>(gbuffer_choices().names)(name, text);
+               },
+               {});
 }
 
 // The types of pictures and videos: their extensions without the point.
@@ -121,11 +128,13 @@ void visit_settings(BenchOptions& options, const SettingVisitor& f) {
     visit_sweep(options.axes, f);
     visit_mode(options, f);
     OptionBuilder(f, "Measuring and output")
-        .count({"--warm-up", "N", text_of(BenchFrames{}.warm_up), "Frames before those that count"},
+        .count({"--warm-up", "N", text_of(BenchFrames{}.warm_up), "Frames before those that count",
+                kNeither, "1"},
                options.warm_up, {0, 1'000'000})
         .count({"--frames", "N", text_of(BenchFrames{}.measured),
                 fmt::format("Frames that count; runs with --tune; pictures with --job ({} there)",
-                            kJobPictures)},
+                            kJobPictures),
+                kNeither, "1"},
                options.frames, {1, 1'000'000})
         .choice({"--motion", "", "camera", "What moves from frame to frame"}, options.motion)
         .text({"--output,-o", "DIR", "", "Folder for CSV, JSON and plots"}, options.output)

@@ -242,7 +242,8 @@ void visit_run(CertifyOptions& options, const SettingVisitor& f) {
               "Each in a process of its own: a driver that ends the process fails one of them")
         .count({"--jobs", "N", "1",
                 "Processes at once, as with --isolate, at most the machine's threads; for GPUs, "
-                "where nearly all time is that of compiling"},
+                "where nearly all time is that of compiling",
+                kNeither, "1"},
                options.jobs, {1, 1024})
         .flag("--resume", options.resume,
               "Go on with the file of -o, which holds what an interrupted run with --isolate or "
