@@ -4,8 +4,11 @@
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/stage_info.h"
 
 namespace kilolux {
+
+inline constexpr StageInfo kMaskTilesStage = {"mask_tiles", StageGroup::surfaces};
 
 /// Copies triangle ids; fine tiles that need no more samples become background.
 class MaskTiles {
