@@ -3,12 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <map>
-#include <set>
-#include <string>
 
 #include "host/measure/roofline/stage_report.h"
 #include "host/measure/roofline/stages.h"
@@ -16,8 +11,6 @@
 #include "host/stages/shading/instruction_counts.h"
 #include "host/stages/shading/shade.h"
 #include "kernels/shared/evaluate_modes.h"
-#include "tests/support/paths.h"
-#include "tests/support/render_fixture.h"
 
 namespace kilolux {
 namespace {
@@ -146,52 +139,6 @@ TEST(Roofline, EveryDeclaredWorkHasALimitEvenWithoutWork) {
     }
     EXPECT_EQ(stage_info("no such stage"), nullptr);
     EXPECT_EQ(group_of("no such stage"), StageGroup::host);
-}
-
-// A kernel belongs to the stage with whose name its own begins, or to another one that launches it.
-TEST(Roofline, EveryKernelBelongsToAStage) {
-    const std::map<std::string, std::string> launched_by = {
-        {"store_lights", "shade"},       {"drift_lights", "move_lights"},
-        {"prefix_sum", "cull_lights"},   {"tail_bound", "tail_errors"},
-        {"tail_moments", "tail_errors"}, {"tail_variance", "tail_errors"},
-        {"tree_bound", "tail_errors"},   {"tree_cones", "cut_light_tree"},
-        {"measure_limits", ""},          {"measure_texels", ""}};  // of no picture
-    std::size_t kernels = 0;
-    for (const auto& entry :
-         std::filesystem::recursive_directory_iterator(source_root() + "/kernels")) {
-        if (entry.path().extension() != ".cl") continue;
-        ++kernels;
-        const std::string kernel = entry.path().stem().string();
-        const auto other = launched_by.find(kernel);
-        if (other != launched_by.end() && other->second.empty()) continue;
-        const std::string stage = other != launched_by.end() ? other->second : kernel;
-        EXPECT_TRUE(std::ranges::any_of(all_stages(), [&](const StageInfo* info) {
-            return stage.starts_with(info->name);
-        })) << kernel;
-    }
-    EXPECT_GT(kernels, 40u);
-}
-
-// Tables sum times by the stage's group.
-TEST(Roofline, EveryTimeOfAFrameIsThatOfAStage) {
-    const Scene scene = grid_with_every_light();
-    std::vector<RenderSettings> all(5, small_settings(64, 36, 40));
-    all[0].auto_samples = {true, 0.01f, 32};
-    all[1].shadows = Shadows::exact;
-    all[1].want.aovs = {"error-bound"};
-    all[1].want.counts = true;
-    all[2].shadows = Shadows::sampled;
-    all[2].samples = 2;
-    all[3].bloom = 0.1f;
-    all[3].tails = Tails::tree;
-    all[4].renderer = RendererKind::forward_plus;
-    std::set<std::string> names;
-    for (const RenderSettings& settings : all) {
-        for (const StageTime& stage : render_once(scene, settings).stats.stages)
-            names.insert(stage.name);
-    }
-    EXPECT_TRUE(names.contains("mask_tiles"));
-    for (const std::string& name : names) EXPECT_NE(stage_info(name), nullptr) << name;
 }
 
 // Counts of deferred-all with 5000 lights: most are out of range, and leave evaluate() at its range
