@@ -13,6 +13,8 @@ inline constexpr StageInfo kMaskTilesStage = {"mask_tiles", StageGroup::surfaces
 /// Copies triangle ids; fine tiles that need no more samples become background.
 class MaskTiles {
  public:
+    static constexpr std::size_t kPixelBytes = sizeof(uint);  // an id
+
     MaskTiles(const Gpu& gpu, const Tuning& tuning);
 
     /// Of ids[view.height][view.stride]. Valid until the next call. Enqueues only.
