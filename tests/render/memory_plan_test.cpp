@@ -204,7 +204,7 @@ TEST(MemoryPlan, TheProgramAloneMayBeTooLarge) {
         settings.max_memory_bytes = mebibytes << 20;
         return message_of<Error>([&] { check_light_memory(lights, settings); });
     };
-    for (const std::uint64_t lights : {0, 1, 5000}) {
+    for (const std::uint64_t lights : {0u, 1u, 5000u}) {
         EXPECT_EQ(refused(lights, 1),
                   "memory: the program with its drivers needs at least 256 MiB; --max-memory is 1 "
                   "MiB");
