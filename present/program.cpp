@@ -10,7 +10,6 @@
 #include "host/base/version.h"
 #include "host/render/renderer.h"
 #include "present/cli/commit.h"
-#include "present/cli/option_builder.h"
 #include "present/commands/assemble/assemble.h"
 #include "present/commands/bench/bench.h"
 #include "present/commands/certify/certify.h"

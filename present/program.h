@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "present/cli/option_builder.h"
+
 namespace kilolux {
 
 /// The program `kilolux` with its subcommands.
@@ -39,6 +41,7 @@ class Program {
         });
         *self = &command;
         declare(command, *options);
+        add_device_question(command);
     }
 
     /// Parses and runs `arguments` (without the program's name). Throws UsageError or

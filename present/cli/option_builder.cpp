@@ -48,9 +48,9 @@ void add_option(CLI::App& command, const Setting& setting) {
                       [take = setting.take](std::int64_t count) {
                           take(count > 0 ? "true" : "false");
                       },
-                      text.meaning)
+                      text.described())
                   ->check(flag_problem)
-            : command.add_option_function<std::string>(text.name, setting.take, text.meaning)
+            : command.add_option_function<std::string>(text.name, setting.take, text.described())
                   ->type_name(text.form)
                   ->default_str(text.default_text.empty() && setting.show ? setting.show()
                                                                           : text.default_text);
@@ -64,6 +64,13 @@ void refuse_if(bool is_wrong, const std::string& why) {
 void add_question(CLI::App& command, const std::string& heading, const std::string& name,
                   const std::string& meaning) {
     command.add_flag(name, meaning)->group(heading);
+}
+
+void add_device_question(CLI::App& command) {
+    const CLI::Option* device = command.get_option_no_throw("--device");
+    if (device == nullptr) return;
+    add_question(command, device->get_group(), "--list-devices",
+                 "Print the OpenCL devices and leave");
 }
 
 OptionBuilder::OptionBuilder(SettingVisitor visitor, std::string heading)

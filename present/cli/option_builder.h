@@ -150,4 +150,7 @@ void refuse_if(bool is_wrong, const std::string& why);
 void add_question(CLI::App& command, const std::string& heading, const std::string& name,
                   const std::string& meaning);
 
+/// --list-devices, where the command has --device.
+void add_device_question(CLI::App& command);
+
 }  // namespace kilolux

@@ -93,15 +93,15 @@ void visit_lights(const SettingVisitor& f, SharedOptions& o) {
                {"--lights", "N", text_of(l.count) + " with the rig swarm",
                 "Generated point lights, e.g. 20k or 1e6, beside any rig; without --rig they are "
                 "the rig, and 0 keeps only the file's own",
-                kPanelPicture},
+                kPanelPicture, "1"},
                take_count, [&l] { return text_of(l.count); })
-        .count({"--light-seed", "S", "", "Decides places, colours and motion", kPanelPicture},
+        .count({"--light-seed", "S", "", "Decides places, colours and motion", kPanelPicture, "1"},
                l.seed, kLightSeedRange)
-        .number_or_auto({"--light-radius", "R|auto", "",
-                         "Range in metres; beyond it a light is exactly 0", kPanelPicture},
+        .number_or_auto({"--light-radius", "R|auto", "", "Range; beyond it a light is exactly 0",
+                         kPanelPicture, "m"},
                         l.radius, kAboveZeroRange)
         .number_or_auto(
-            {"--light-intensity", "I|auto", "", "Brightest channel in candela", kPanelPicture},
+            {"--light-intensity", "I|auto", "", "Brightest channel", kPanelPicture, "cd"},
             l.intensity, kAboveZeroRange)
         .input_file(
             {"--environment", "FILE|studio|sky", "",
@@ -121,18 +121,19 @@ void visit_more_lights(const SettingVisitor& f, SharedOptions& o) {
               "lights, so that shiny metals reflect it; render and view; not blended surfaces, no "
               "forward renderers",
               kPicture)
-        .count({"--environment-lights", "N", "", "Directional lights that stand for it", kPicture},
+        .count({"--environment-lights", "N", "", "Directional lights that stand for it", kPicture,
+                "1"},
                o.environment_lights, {1, 65536})
-        .value({"--light-box", "X0,Y0,Z0,X1,Y1,Z1", "the scene's", "Where they are, in metres",
-                kPicture},
+        .value({"--light-box", "X0,Y0,Z0,X1,Y1,Z1", "the scene's", "Where they are", kPicture, "m"},
                s.lights.box, parse_box)
         .choice({"--tails", "", "", "Where the file's lights without a range end", kPanelPicture},
                 s.tails)
-        .number({"--range-budget", "E", "", "Radiance at which a bounded light ends", kPicture},
+        .number({"--range-budget", "E", "", "Radiance at which a bounded light ends", kPicture,
+                 "cd/m2"},
                 s.range_budget, kAboveZeroRange)
         .number({"--tree-share", "S", "",
                  "Largest error of a group of a tree, as a share of the light that it sends",
-                 kPanelPicture},
+                 kPanelPicture, "1"},
                 s.tree_share, kShareRange);
 }
 
@@ -146,18 +147,18 @@ void visit_camera(const SettingVisitor& f, CameraChoice& c) {
         .value(SettingKind::count,
                {"--camera-index", "I|auto", "the first, else auto",
                 "A camera of the scene, from 0; auto: one that sees the scene as --view says",
-                kPicture},
+                kPicture, "1"},
                take_index, [&c] { return c.framed ? std::string("auto") : text_of(c.index); })
-        .value({"--camera-position", "X,Y,Z", "", "Where it stands, in metres", kPicture},
-               c.position, parse_vector)
+        .value({"--camera-position", "X,Y,Z", "", "Where it stands", kPicture, "m"}, c.position,
+               parse_vector)
         .value({"--camera-focal-point", "X,Y,Z", "",
-                "What it looks at; with a position alone: the scene's middle", kPicture},
+                "What it looks at; with a position alone: the scene's middle", kPicture, "m"},
                c.focal_point, parse_vector)
         .rest()
-        .value({"--camera-view-up", "X,Y,Z", "0,1,0", "What is up in the picture", kPicture},
+        .value({"--camera-view-up", "X,Y,Z", "0,1,0", "What is up in the picture", kPicture, "1"},
                c.view_up, parse_vector)
-        .number({"--camera-view-angle", "DEG", "the camera's, else 45",
-                 "Vertical angle, in degrees", kPicture},
+        .number({"--camera-view-angle", "DEG", "the camera's, else 45", "Vertical angle", kPicture,
+                 "degrees"},
                 c.view_angle, {0.0, 180.0, true})
         .choice({"--fit", "", "",
                  "What a picture of another shape keeps of a file's camera that has an aspect",
@@ -185,16 +186,17 @@ void visit_device(const SettingVisitor& f, RenderSettings& s) {
                 "Bound for rendering, e.g. 512M or 4G: pictures that need more are made in bands, "
                 "with the same bits; a scene file's buffers, images and meshes have the "
                 "same bound; auto: most of what is available",
-                kTime},
+                kTime, "bytes"},
                s.max_memory_bytes, parse_bytes,
                [&s] { return s.max_memory_bytes == 0 ? "auto" : text_of(s.max_memory_bytes); })
         .value(SettingKind::numbers,
                {"--grid", "X,Y,SLICES_PER_OCTAVE", "",
                 "Coarse clusters: tiles across and down, slices for each doubling of depth",
-                kPanelPicture},
+                kPanelPicture, "1"},
                grid, grid_text)
         .value({"--lanes", "auto|1|2|4|8|16", "",
-                "Pixels or lights a work-item treats at once; changes no bit on CPUs", kPanelTime},
+                "Pixels or lights a work-item treats at once; changes no bit on CPUs", kPanelTime,
+                "1"},
                s.kernels.lanes, parse_lanes,
                [&s] { return s.kernels.lanes == 0 ? "auto" : text_of(s.kernels.lanes); })
         .choice({"--math", "", "", "How shading kernels compute", kPicture}, s.kernels.math)
@@ -203,11 +205,6 @@ void visit_device(const SettingVisitor& f, RenderSettings& s) {
 }
 
 }  // namespace
-
-void add_shared_options(CLI::App& command, SharedOptions& options) {
-    add_options(command, options);
-    add_question(command, "Device", "--list-devices", "Print the OpenCL devices and leave");
-}
 
 void begin_command(const SharedOptions& options, bool compares) {
     refuse_if(options.quiet && options.verbose, "--quiet and --verbose exclude each other");

@@ -3,7 +3,6 @@
 // while the command line is parsed.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -63,9 +62,6 @@ void visit_settings(SharedOptions& options, const SettingVisitor& visit);
 /// for a shell: " --lights 77 --rig none". Leaves out the scene and the options of printing.
 std::string option_words(const std::vector<Setting>& settings, const std::vector<Setting>& defaults,
                          Changes least);
-
-/// Registers the shared options.
-void add_shared_options(CLI::App& command, SharedOptions& options);
 
 /// Sets the verbosity. Throws UsageError for shared options that exclude or need each other, Error
 /// for an environment file that is not there; `compares`: the command line has --reference.

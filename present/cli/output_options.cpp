@@ -67,10 +67,10 @@ void visit_encoding(const SettingVisitor& f, OutputOptions& o) {
             {"--bits", "", "", "Bits a channel of PNG and TIFF", kPicture}, Words{"8", "16"},
             [&e](std::size_t place) { e.bits = place == 0 ? 8 : 16; },
             [&e] { return text_of(e.bits); })
-        .count(
-            {"--png-level", "N", "",
-             "zlib's level of PNG, 0 to 9: higher ones take longer and make files smaller", kTime},
-            e.png_level, {0, 9})
+        .count({"--png-level", "N", "",
+                "zlib's level of PNG, 0 to 9: higher ones take longer and make files smaller",
+                kTime, "1"},
+               e.png_level, {0, 9})
         .text({"--ocio-view", "NAME|none", "the display's",
                "OpenColorIO view of pictures for the eye in place of --tonemap, where the "
                "environment's OCIO names a configuration; none: no OpenColorIO",
@@ -92,13 +92,13 @@ void visit_sequence(const SettingVisitor& f, OutputOptions& o) {
                 "--time + f / --fps",
                 one_file || o.turntable ? kPicture : kNeither},
                o.frames, parse_frames)
-        .number({"--fps", "F", "", "Frames a second", one_file ? kPicture : kNeither},
+        .number({"--fps", "F", "", "Frames a second", one_file ? kPicture : kNeither, "1/s"},
                 o.frames_per_second, {0.0, 1e6, true})
         .value({"--shard", "I/N", "0/1", shard_meaning("frame or tile")}, o.shard, parse_shard)
         .value({"--crop", "X,Y,W,H", "",
                 "Only these pixels of the picture, with the same bits; an EXR file has them as its "
                 "data window. Takes the time of whole rows",
-                kPicture},
+                kPicture, "px"},
                o.crop, parse_crop)
         .value({"--tiles", "CxR", "",
                 "The picture as C columns and R rows of crops, a file each; #### in its name is "
@@ -107,7 +107,7 @@ void visit_sequence(const SettingVisitor& f, OutputOptions& o) {
         .number({"--turntable", "DEGREES", "",
                  "The camera goes so far around the vertical axis through the scene's middle over "
                  "the frames; 360 ends one step before its start",
-                 kPicture},
+                 kPicture, "degrees"},
                 o.turntable)
         .input_file(
             {"--camera-keys", "FILE", "",
@@ -125,7 +125,9 @@ void visit_sequence(const SettingVisitor& f, OutputOptions& o) {
 void visit_comparison(const SettingVisitor& f, OutputOptions& o) {
     OptionBuilder(f, "Comparison")
         .input_file({"--reference", "FILE", "", "Compare the picture with this one"}, o.reference)
-        .number({"--threshold", "T", "0", "Exit with 3 if the metric is above"}, o.threshold, {0.0})
+        .number({"--threshold", "T", "0", "Exit with 3 if the metric is above", kNeither,
+                 "the metric's"},
+                o.threshold, {0.0})
         .choice({"--metric", "", "", "What is compared with the threshold"}, o.metric,
                 metric_choices())
         .value({"--difference", "FILE", "",

@@ -37,7 +37,7 @@ void visit_picture(const SettingVisitor& f, SharedOptions& o) {
     OptionBuilder(f, "Picture")
         .choice({"--renderer", "", "", "How surfaces are lit", kPanelPicture}, s.renderer)
         .value(SettingKind::numbers,
-               {"--resolution", "W,H", "", "Size in pixels; WxH is as good", kPicture}, resolution,
+               {"--resolution", "W,H", "", "Size; WxH is as good", kPicture, "px"}, resolution,
                [&s] { return fmt::format("{},{}", s.width, s.height); })
         .value(
             SettingKind::count,
@@ -45,12 +45,11 @@ void visit_picture(const SettingVisitor& f, SharedOptions& o) {
              automatic ? "Jittered samples a pixel; auto: as many as each tile of 16x16 pixels "
                          "needs, see --sample-error"
                        : "Jittered samples a pixel",
-             kPanelPicture},
+             kPanelPicture, "1"},
             [&o](const auto& name, const auto& text) { take_samples(o, name, text); },
             [&s] { return s.auto_samples.on ? "auto" : text_of(s.samples); })
-        .number(
-            {"--time", "T", "", "Seconds: moves the lights and the file's animations", kPicture},
-            o.time)
+        .number({"--time", "T", "", "Moves the lights and the file's animations", kPicture, "s"},
+                o.time)
         .choice(
             {"--show", "", "", "What the picture shows", kPanelPicture}, show_choices(),
             [&o](std::size_t place) {
@@ -79,7 +78,7 @@ void visit_surfaces(const SettingVisitor& f, SharedOptions& o) {
         .choice({"--geometry", "", "", "How surfaces get into the G-buffer", kPicture}, s.geometry)
         .value(
             {"--anisotropy", "N", "1 on CPUs, 8 on GPUs", "Texture samples along a footprint",
-             kPicture},
+             kPicture, "1"},
             s.anisotropy,
             [](const auto& name, const auto& text) {
                 return parse_count(name, text, kAnisotropyRange);
@@ -88,10 +87,11 @@ void visit_surfaces(const SettingVisitor& f, SharedOptions& o) {
         .number({"--sample-error", "E", "",
                  "With --samples auto: a tile stops at this relative standard error of its "
                  "luminance; dark light counts as 0.1 of white at least",
-                 kPicture},
+                 kPicture, "1"},
                 s.auto_samples.error, kAboveZeroRange)
-        .count({"--max-samples", "N", "", "With --samples auto: most samples a pixel", kPicture},
-               s.auto_samples.most, kAutoSamplesRange)
+        .count(
+            {"--max-samples", "N", "", "With --samples auto: most samples a pixel", kPicture, "1"},
+            s.auto_samples.most, kAutoSamplesRange)
         .flag("--no-reuse", s.no_reuse, "Compute every frame anew, also what has not changed",
               kTime)
         .choice({"--shading", "", "", "How surfaces reflect light", kPanelPicture}, s.shading)
@@ -99,16 +99,16 @@ void visit_surfaces(const SettingVisitor& f, SharedOptions& o) {
         .value(SettingKind::count,
                {"--shadow-rays", "N",
                 text_of(s.shadow_rays) + "; with --max-error as many as it takes",
-                "Rays a pixel of sampled shadows, at most on average", kPicture},
+                "Rays a pixel of sampled shadows, at most on average", kPicture, "1"},
                take_rays, [&s] { return text_of(s.shadow_rays); })
-        .count(
-            {"--seed", "N", "", "Random numbers of sampled shadows and stochastic tails", kPicture},
-            s.seed, kSeedRange)
+        .count({"--seed", "N", "", "Random numbers of sampled shadows and stochastic tails",
+                kPicture, "1"},
+               s.seed, kSeedRange)
         .value(SettingKind::number,
                {"--ambient", "L",
                 text_of(s.ambient) + "; with the rig studio " +
                     text_of(rig_ambient(Rig::studio, s.ambient)),
-                "Radiance from everywhere, times the albedo", kPanelPicture},
+                "Radiance from everywhere, times the albedo", kPanelPicture, "cd/m2"},
                take_ambient, [&s] { return text_of(s.ambient); });
 }
 
@@ -148,7 +148,7 @@ void visit_display(const SettingVisitor& f, SharedOptions& o) {
                          "luminance becomes 0.18, or less where more than 2 % would clip; a "
                          "sequence keeps that of its first frame"
                        : "Each step doubles the brightness",
-             kPanelPicture},
+             kPanelPicture, "EV"},
             [&o](const auto& name, const auto& text) { take_exposure(o, name, text); },
             [&o] { return o.automatic_exposure ? "auto" : text_of(o.settings.exposure); })
         .choice({"--tonemap", "", name_of(s.tone_curve) + "; of an unlit scene none",
@@ -161,7 +161,7 @@ void visit_display(const SettingVisitor& f, SharedOptions& o) {
                 "EXR without bloom; auto: the environment, else black",
                 kPicture},
                o.background, take_background)
-        .number({"--bloom", "K", "", "Share of the light that blooms, 0 to 1", kPanelPicture},
+        .number({"--bloom", "K", "", "Share of the light that blooms, 0 to 1", kPanelPicture, "1"},
                 s.bloom, kBloomRange);
 }
 

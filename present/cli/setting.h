@@ -32,8 +32,14 @@ struct OptionText {
     std::string name;            // "--lights", or "--output,-o"
     std::string form{};          // of the value: "N"; words in small letters between '|' are names
     std::string default_text{};  // in place of show()'s text; empty: that text
-    std::string meaning{};       // with the unit
+    std::string meaning{};
     Effect effect = kNeither;
+    std::string unit{};  // of a number: "m", "px", "s"; "1" where it has none
+
+    /// The meaning, and the unit in brackets.
+    std::string described() const {
+        return unit.empty() || unit == "1" ? meaning : meaning + " [" + unit + "]";
+    }
 };
 
 /// How a value is written: `numbers` are separated by commas, as are the words of a `list`. What an

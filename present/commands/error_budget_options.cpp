@@ -94,7 +94,7 @@ void visit_settings(BudgetOptions& options, const SettingVisitor& visit) {
                  "Use the fastest setting whose error on this scene and device is at most E; of "
                  "sampled shadows it also chooses the rays, or exact ones, unless --shadow-rays "
                  "is given",
-                 kPicture},
+                 kPicture, "the metric's"},
                 options.max_error, {0.0})
         .choice(
             {"--error-metric", "", "flip",
@@ -104,9 +104,9 @@ void visit_settings(BudgetOptions& options, const SettingVisitor& visit) {
              kPicture},
             options.metric, metric_names())
         .count({"--error-width", "W", "auto",
-                "Width of the pictures that errors are measured on; auto: at most 320 pixels, and "
+                "Width of the pictures that errors are measured on; auto: at most 320 px, and "
                 "so few that the float64 reference takes seconds",
-                kPicture},
+                kPicture, "px"},
                options.error_width, kEdgeRange);
 }
 

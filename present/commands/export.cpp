@@ -11,18 +11,12 @@
 #include "host/scene/export/export_scene.h"
 #include "host/scene/lights/light_generator.h"
 #include "present/cli/option_builder.h"
-#include "present/cli/options.h"
 #include "present/cli/scene_choice.h"
 
 namespace kilolux {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct ExportOptions {
-    SharedOptions shared;
-    fs::path output;
-};
 
 std::string exported_file(const std::string&, const std::string& text) {
     const std::string extension = lower(fs::path(text).extension().string());
@@ -92,23 +86,27 @@ void run_export(ExportOptions& options) {
     note(summary(scene, exported, options.output));
 }
 
-void add_export_options(CLI::App& command, ExportOptions& options) {
-    add_shared_options(command, options.shared);
-    OptionBuilder(command, "Output")
-        .value({"--output,-o", "FILE", "",
-                "Scene: .glb holds everything, .gltf has its buffer and images beside it"},
-               options.output, exported_file);
-    leave_to_help_all(
-        command, {"--renderer", "--samples", "--show", "--aov", "--gbuffer", "--shading",
-                  "--ambient", "--exposure", "--tonemap", "--bloom", "--device", "--list-devices"});
-}
-
 constexpr const char* kExportExamples =
     "  kilolux export -o atrium.glb --lights 1000\n"
     "  kilolux export hall.glb -o hall.gltf --lights 0 --camera-position 0,2,8\n"
     "  kilolux export walk.glb -o pose.glb --time 1.5 --lights 200";
 
 }  // namespace
+
+void visit_settings(ExportOptions& options, const SettingVisitor& f) {
+    visit_settings(options.shared, f);
+    OptionBuilder(f, "Output")
+        .value({"--output,-o", "FILE", "",
+                "Scene: .glb holds everything, .gltf has its buffer and images beside it"},
+               options.output, exported_file);
+}
+
+void add_export_options(CLI::App& command, ExportOptions& options) {
+    add_options(command, options);
+    leave_to_help_all(command,
+                      {"--renderer", "--samples", "--show", "--aov", "--gbuffer", "--shading",
+                       "--ambient", "--exposure", "--tonemap", "--bloom", "--device"});
+}
 
 void add_export_command(Program& program) {
     program.add_command("export",

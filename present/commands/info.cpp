@@ -12,7 +12,6 @@
 #include "host/scene/gltf/files.h"
 #include "host/scene/lights/light_kinds.h"
 #include "present/cli/option_builder.h"
-#include "present/cli/options.h"
 #include "present/cli/scene_choice.h"
 #include "present/cli/stats_json.h"
 #include "present/commands/bench/bench.h"
@@ -22,14 +21,6 @@ namespace kilolux {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-struct InfoOptions {
-    SharedOptions shared;
-    bool json = false;
-    bool costs = false;
-    bool measure_limits = false;
-    bool check_limits = false;
-};
 
 Json vector_json(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
@@ -228,19 +219,6 @@ void run_info(InfoOptions& options) {
     print_result(options.json, document, text);
 }
 
-void add_info_options(CLI::App& command, InfoOptions& options) {
-    add_shared_options(command, options.shared);
-    OptionBuilder(command, "Output")
-        .flag("--json", options.json, "JSON instead of text")
-        .flag("--costs", options.costs,
-              "Measure what each feature that the scene does without would cost on this picture")
-        .flag("--measure-limits", options.measure_limits,
-              "Measure the device's limits again, and keep them")
-        .flag("--check-limits", options.check_limits,
-              "Measure the device's limits again and compare them with C++ loops on a CPU or with "
-              "published peaks of a GPU; exit 3 if they differ by more than a factor of 1.6");
-}
-
 constexpr const char* kInfoExamples =
     "  kilolux info\n"
     "  kilolux info town.glb --json\n"
@@ -251,10 +229,23 @@ constexpr const char* kInfoExamples =
 
 }  // namespace
 
+void visit_settings(InfoOptions& options, const SettingVisitor& f) {
+    visit_settings(options.shared, f);
+    OptionBuilder(f, "Output")
+        .flag("--json", options.json, "JSON instead of text")
+        .flag("--costs", options.costs,
+              "Measure what each feature that the scene does without would cost on this picture")
+        .flag("--measure-limits", options.measure_limits,
+              "Measure the device's limits again, and keep them")
+        .flag("--check-limits", options.check_limits,
+              "Measure the device's limits again and compare them with C++ loops on a CPU or with "
+              "published peaks of a GPU; exit 3 if they differ by more than a factor of 1.6");
+}
+
 void add_info_command(Program& program) {
     program.add_command("info",
                         "Tell the devices, what the scene holds, and what of the renderer it needs",
-                        kInfoExamples, add_info_options, run_info);
+                        kInfoExamples, add_options<InfoOptions>, run_info);
 }
 
 }  // namespace kilolux

@@ -204,15 +204,6 @@ void run_render(RenderOptions& options) {
     render_from(options, tasks, begin, more_devices);
 }
 
-void add_render_options(CLI::App& command, RenderOptions& options) {
-    options.shared.takes_automatic_exposure = true;
-    options.shared.takes_automatic_samples = true;
-    options.shared.shows_environment = true;
-    add_shared_options(command, options.shared);
-    add_options(command, options.output);
-    add_options(command, options.budget);
-}
-
 constexpr const char* kRenderExamples =
     "  kilolux render -o atrium.png\n"
     "  kilolux render -o atrium.exr --lights 100000 --aov depth,normal,light-count\n"
@@ -225,6 +216,13 @@ constexpr const char* kRenderExamples =
     "  kilolux render -o atrium.png --stats - --quiet";
 
 }  // namespace
+
+void add_render_options(CLI::App& command, RenderOptions& options) {
+    options.shared.takes_automatic_exposure = true;
+    options.shared.takes_automatic_samples = true;
+    options.shared.shows_environment = true;
+    add_options(command, options);
+}
 
 void add_render_command(Program& program) {
     program.add_command("render", "Render a scene to an image file, a sequence of them or a video",

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "present/commands/picture_files.h"
 #include "present/program.h"
 
 namespace kilolux {
 
-// One function a subcommand, which registers it: commands/<name>.cpp.
+void add_render_options(CLI::App& command, RenderOptions& options);
 void add_render_command(Program& program);
 
 }  // namespace kilolux

@@ -31,21 +31,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-struct ReportOptions {
-    SharedOptions shared;
-    std::optional<int> warm_up;
-    std::optional<int> frames;
-    std::filesystem::path output;   // folder; empty: the table on standard output only
-    std::vector<std::string> axes;  // by axis_name(); empty: all
-    bool json = false;
-    bool quick = false;
-    bool check_default = false;
-    bool mixed_devices = false;
-    std::vector<std::string> devices;  // by index, where there are several
-    Shard shard;                       // of the settings
-    BudgetOptions budget;
-};
-
 struct Report {
     nlohmann::ordered_json context;
     std::vector<std::string> points;  // names of all settings, also of other shards
@@ -226,33 +211,6 @@ void run_report(ReportOptions& options, const CLI::App& command) {
     if (!failures.empty()) throw Error(failures + "; the other devices measured the rest");
 }
 
-void add_report_options(CLI::App& command, ReportOptions& options) {
-    add_shared_options(command, options.shared);
-    OptionBuilder(command, "Measuring and output")
-        .flag("--quick", options.quick,
-              "480x270 pixels, 1000 lights, fewer settings and frames: minutes on two CPU cores")
-        .choice_list(
-            {"--axes", "", "all; shadows where --shadows asks for some",
-             "In what the settings differ, one at a time. shadows: none, exact, and sampled "
-             "by 1, 4 and 16 rays; it makes --shadows exact the default"},
-            options.axes, setting_axis_names())
-        .count({"--warm-up", "N", "2", "Frames before the measured ones, in both rounds"},
-               options.warm_up, {0, 1'000'000})
-        .count({"--frames", "N", "20", "Measured frames; slow settings get fewer"}, options.frames,
-               {1, 1'000'000})
-        .value({"--shard", "I/N", "0/1", shard_meaning("setting")}, options.shard, parse_shard)
-        .flag("--check-default", options.check_default,
-              "Exit with 3 where another setting is faster beyond noise and as exact")
-        .text({"--output,-o", "DIR", "", "Folder for CSV, JSON, Markdown, plots and pictures"},
-              options.output)
-        .flag("--mixed-devices", options.mixed_devices,
-              "Take devices of several kinds, whose errors may differ in bits; the report notes "
-              "which "
-              "one measured each setting")
-        .flag("--json", options.json, "JSON instead of a table on standard output");
-    add_options(command, options.budget);
-}
-
 constexpr const char* kReportExamples =
     "  kilolux report -o results\n"
     "  kilolux report --quick\n"
@@ -294,10 +252,38 @@ void judge_default(const std::vector<ReportRow>& rows, bool must_hold) {
     warn(text);
 }
 
+void visit_settings(ReportOptions& options, const SettingVisitor& f) {
+    visit_settings(options.shared, f);
+    OptionBuilder(f, "Measuring and output")
+        .flag("--quick", options.quick,
+              "480x270 pixels, 1000 lights, fewer settings and frames: minutes on two CPU cores")
+        .choice_list(
+            {"--axes", "", "all; shadows where --shadows asks for some",
+             "In what the settings differ, one at a time. shadows: none, exact, and sampled "
+             "by 1, 4 and 16 rays; it makes --shadows exact the default"},
+            options.axes, setting_axis_names())
+        .count({"--warm-up", "N", "2", "Frames before the measured ones, in both rounds", kNeither,
+                "1"},
+               options.warm_up, {0, 1'000'000})
+        .count({"--frames", "N", "20", "Measured frames; slow settings get fewer", kNeither, "1"},
+               options.frames, {1, 1'000'000})
+        .value({"--shard", "I/N", "0/1", shard_meaning("setting")}, options.shard, parse_shard)
+        .flag("--check-default", options.check_default,
+              "Exit with 3 where another setting is faster beyond noise and as exact")
+        .text({"--output,-o", "DIR", "", "Folder for CSV, JSON, Markdown, plots and pictures"},
+              options.output)
+        .flag("--mixed-devices", options.mixed_devices,
+              "Take devices of several kinds, whose errors may differ in bits; the report notes "
+              "which "
+              "one measured each setting")
+        .flag("--json", options.json, "JSON instead of a table on standard output");
+    visit_settings(options.budget, f);
+}
+
 void add_report_command(Program& program) {
     program.add_command(
         "report", "Measure speed against error of every setting that trades one for the other",
-        kReportExamples, add_report_options, run_report);
+        kReportExamples, add_options<ReportOptions>, run_report);
 }
 
 }  // namespace kilolux

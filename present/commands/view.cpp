@@ -15,14 +15,6 @@
 namespace kilolux {
 namespace {
 
-struct ViewOptions {
-    SharedOptions shared;
-    std::uint64_t exit_after = 0;
-    std::string screenshot;
-    std::string script;
-    bool fresh = false;
-};
-
 ViewState kept_state(StateFile& file) {
     return file.load({}, [](const std::string&) { return false; });
 }
@@ -107,15 +99,20 @@ void run_view(ViewOptions& options, const CLI::App& command) {
     std::_Exit(0);
 }
 
-void add_view_options(CLI::App& command, ViewOptions& options) {
-    options.shared.shows_environment = true;
-    add_shared_options(command, options.shared);
-    leave_to_help_all(command, {"--aov"});
-    OptionBuilder(command, "Window")
+constexpr const char* kViewExamples =
+    "  kilolux view\n"
+    "  kilolux view town.glb --lights 20000\n"
+    "  kilolux view --exit-after 3 --screenshot window.png";
+
+}  // namespace
+
+void visit_settings(ViewOptions& options, const SettingVisitor& f) {
+    visit_settings(options.shared, f);
+    OptionBuilder(f, "Window")
         .flag("--fresh", options.fresh,
               "Begin with the defaults instead of the last window's settings; keep nothing")
         .count({"--exit-after", "N", "never",
-                "Leave when N pictures have been made, also while minimised"},
+                "Leave when N pictures have been made, also while minimised", kNeither, "1"},
                options.exit_after, {1, 1'000'000'000})
         .text({"--screenshot", "FILE", "", "Write what the window shows at the end"},
               options.screenshot)
@@ -124,12 +121,11 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
               options.script);
 }
 
-constexpr const char* kViewExamples =
-    "  kilolux view\n"
-    "  kilolux view town.glb --lights 20000\n"
-    "  kilolux view --exit-after 3 --screenshot window.png";
-
-}  // namespace
+void add_view_options(CLI::App& command, ViewOptions& options) {
+    options.shared.shows_environment = true;
+    add_options(command, options);
+    leave_to_help_all(command, {"--aov"});
+}
 
 void add_view_command(Program& program) {
     program.add_command("view", "Show a scene in a window and fly through it", kViewExamples,

@@ -1,10 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "present/cli/options.h"
 #include "present/program.h"
 
 namespace kilolux {
 
+struct ViewOptions {
+    SharedOptions shared;
+    std::uint64_t exit_after = 0;  // pictures; 0: never
+    std::string screenshot;
+    std::string script;
+    bool fresh = false;
+    bool operator==(const ViewOptions&) const = default;
+};
+
+void visit_settings(ViewOptions& options, const SettingVisitor& visit);
+void add_view_options(CLI::App& command, ViewOptions& options);
 void add_view_command(Program& program);
 
 }  // namespace kilolux

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/image/image_notes.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <fstream>
 #include <sstream>
@@ -66,7 +67,7 @@ void drop_note(ImageLayout& layout, const std::string& name) {
     for (auto& [attribute, value] : layout.attributes) {
         auto* text = std::get_if<std::string>(&value);
         if (attribute != "ImageDescription" || text == nullptr) continue;
-        const std::size_t at = text->find("\n" + key_of(name) + "=");
+        const std::size_t at = text->find(fmt::format("\n{}=", key_of(name)));
         if (at != std::string::npos) text->erase(at, text->find('\n', at + 1) - at);
     }
 }

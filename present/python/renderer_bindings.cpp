@@ -87,7 +87,7 @@ py::list settings(const Words& words) {
         row["kind"] = kKinds[static_cast<int>(setting.kind)];
         row["words"] = setting.words;
         row["form"] = setting.text.form;
-        row["meaning"] = setting.text.meaning;
+        row["meaning"] = setting.text.described();
         row["value"] = setting.show();
         out.append(row);
     }

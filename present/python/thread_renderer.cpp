@@ -61,8 +61,8 @@ RendererOptions parse_renderer_options(const std::string& scene,
     options.shared.takes_automatic_exposure = true;
     options.shared.takes_automatic_samples = true;
     options.shared.shows_environment = true;
-    add_shared_options(app, options.shared);
-    add_options(app, options.budget);
+    add_options(app, options);
+    add_device_question(app);
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
     refuse_extras(app, app.remaining());
     if (app.get_option("--list-devices")->count() > 0) {

@@ -45,7 +45,7 @@ void parse(const Words& words) {
     app.allow_extras();
     SharedOptions shared;
     OutputOptions output;
-    add_shared_options(app, shared);
+    add_options(app, shared);
     add_options(app, output);
     app.parse(std::vector<std::string>(words.words.rbegin(), words.words.rend()));
     refuse_extras(app, app.remaining());

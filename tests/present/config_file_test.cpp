@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "present/cli/option_builder.h"
 #include "present/cli/options.h"
 #include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
@@ -15,7 +16,7 @@ SharedOptions parse(const std::string& text, std::vector<std::string> arguments 
     write_text(folder / "config", text);
     SharedOptions options;
     CLI::App app;
-    add_shared_options(app, options);
+    add_options(app, options);
     app.parse(arguments);
     apply_config_file(app, folder / "config");
     return options;

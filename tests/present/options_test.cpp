@@ -22,7 +22,7 @@ struct Parsed {
 Parsed parsed(const std::string& line) {
     Parsed parsed;
     CLI::App app;
-    add_shared_options(app, parsed.shared);
+    add_options(app, parsed.shared);
     add_options(app, parsed.output);
     std::istringstream words(line);
     std::vector<std::string> arguments;
@@ -39,7 +39,7 @@ TEST(Options, ExposureNamesAutoWhereItIsTaken) {
     CLI::App app;
     SharedOptions options;
     options.takes_automatic_exposure = true;
-    add_shared_options(app, options);
+    add_options(app, options);
     EXPECT_EQ(message_of<UsageError>([&] { app.parse("--exposure atuo"); }),
               "--exposure: 'atuo' is not 'auto' or a number from -126 to 126");
     app.parse("--exposure auto");
@@ -50,7 +50,7 @@ TEST(Options, SamplesAreACountOrAutoWhereThatIsTaken) {
     CLI::App app;
     SharedOptions options;
     options.takes_automatic_samples = true;
-    add_shared_options(app, options);
+    add_options(app, options);
     app.parse("--samples auto --sample-error 0.25 --max-samples 99");
     EXPECT_EQ(options.settings.auto_samples, (AutoSamples{true, 0.25f, 99}));
     app.parse("--samples 7");
@@ -86,7 +86,7 @@ TEST(Options, DefaultsInHelpAreTheRealOnes) {
     CLI::App app;
     SharedOptions shared;
     OutputOptions output;
-    add_shared_options(app, shared);
+    add_options(app, shared);
     add_options(app, output);
     std::vector<std::string> arguments;
     for (const CLI::Option* option : app.get_options()) {

@@ -197,13 +197,10 @@ TEST(Program, HelpOfACommandHasOptionsDefaultsMeaningsAndExamples) {
     }
 }
 
-TEST(Program, HelpAllHasEveryOptionOnPagesOfEightyColumns) {
+TEST(Program, HelpAllHasPagesOfEightyColumns) {
     const Program program;
     for (const CLI::App* command : program.app().get_subcommands({})) {
         const std::string help = run_kilolux({command->get_name(), "--help-all"}).out;
-        for (const std::string& name : option_names(*command)) {
-            EXPECT_TRUE(contains(help, "  " + name)) << command->get_name() << " " << name;
-        }
         std::istringstream lines(help.substr(0, help.find("Examples:")));
         for (std::string line; std::getline(lines, line);) {
             const bool is_form = contains(line, "|");  // a list of names is not broken

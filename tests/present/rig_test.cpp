@@ -4,6 +4,7 @@
 
 #include "host/render/renderer.h"
 #include "host/scene/export/export_scene.h"
+#include "present/cli/option_builder.h"
 #include "present/cli/option_values.h"
 #include "present/cli/scene_choice.h"
 #include "present/image/image_file.h"
@@ -36,7 +37,7 @@ class RigTest : public testing::Test {
     std::string lights(const std::string& scene, const std::string& more = "") {
         CLI::App app;
         SharedOptions options;
-        add_shared_options(app, options);
+        add_options(app, options);
         const std::string words =
             (scene.find('.') == std::string::npos ? scene : (folder_ / scene).string());
         app.parse(words + " -q " + more);
@@ -79,7 +80,7 @@ TEST_F(RigTest, ASwarmIsNamedWhereTheSceneWouldNotChooseIt) {
     const auto chosen = [&](const std::string& scene, const std::string& more) {
         CLI::App app;
         SharedOptions options;
-        add_shared_options(app, options);
+        add_options(app, options);
         app.parse(scene + " -q " + more);
         open_scene(options);
         return options.rig;
@@ -101,7 +102,7 @@ TEST_F(RigTest, MetalGetsAStudiosRoomWhereItCanBeSeen) {
         CLI::App app;
         SharedOptions options;
         options.shows_environment = true;
-        add_shared_options(app, options);
+        add_options(app, options);
         app.parse((folder_ / "metal.glb").string() + " -q " + more);
         AnimatedScene scene = open_animated_scene(options);
         const std::string line = light_scene(options, scene);
@@ -131,7 +132,7 @@ TEST_F(RigTest, ManyFarLightsWithoutARangeTakeATree) {
         CLI::App app;
         SharedOptions options;
         options.compares_renderers = file != std::string("many.glb");
-        add_shared_options(app, options);
+        add_options(app, options);
         app.parse((folder_ / file).string() + " -q " + more);
         testing::internal::CaptureStderr();
         open_scene(options);
@@ -153,7 +154,7 @@ TEST_F(RigTest, TheViewDecidesCameraAndRig) {
     const auto seen = [&](const std::string& scene, const std::string& more) {
         CLI::App app;
         SharedOptions options;
-        add_shared_options(app, options);
+        add_options(app, options);
         app.parse((folder_ / scene).string() + " -q " + more);
         AnimatedScene opened = open_animated_scene(options);
         const std::string line = light_scene(options, opened);
@@ -183,7 +184,7 @@ TEST_F(RigTest, AnAutomaticRigSaysWhy) {
     const auto line = [&](const std::string& more) {
         CLI::App app;
         SharedOptions options;
-        add_shared_options(app, options);
+        add_options(app, options);
         app.parse((folder_ / "seen_room.glb").string() + " -q " + more);
         AnimatedScene opened = open_animated_scene(options);
         return light_scene(options, opened);

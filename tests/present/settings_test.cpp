@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests every option of `kilolux render`: all code that reads the rows of settings reads all of
-// them.
+// Tests that all code that reads the rows of settings reads all of them.
 #include <gtest/gtest.h>
 #include <wordexp.h>
 #include <map>
@@ -14,9 +13,9 @@
 #include "present/commands/bench/bench_options.h"
 #include "present/commands/bench/bench_sweep.h"
 #include "present/commands/made_picture.h"
-#include "present/config_file.h"
 #include "present/window/app/command_text.h"
 #include "present/window/app/state_file.h"
+#include "tests/support/option_examples.h"
 #include "tests/support/temporary_folder.h"
 
 namespace kilolux {
@@ -36,6 +35,8 @@ template <typename Options>
 Options initial() {
     if constexpr (std::is_same_v<Options, SharedOptions>) {
         return render_options();
+    } else if constexpr (std::is_same_v<Options, BenchOptions>) {
+        return {};
     } else {
         return {.shared = render_options(), .output = {}, .budget = {}};
     }
@@ -49,63 +50,6 @@ Options parsed(std::vector<std::string> words) {
     add_options(app, options);
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
     return options;
-}
-
-// Texts of options whose values no rule below makes.
-const std::map<std::string, std::string>& special_values() {
-    static const std::map<std::string, std::string> values = {
-        {"SCENE", "grid"},
-        {"--clip", "none,walk"},
-        {"--variant", "it's $red"},
-        {"--line-width", "1%"},
-        {"--resolution", "640,360"},
-        {"--background", "0.5,0.25,0"},
-        {"--environment", "sky"},
-        {"--light-box", "-1,-2,-3,1,2,3"},
-        {"--camera-index", "auto"},
-        {"--camera-position", "1,2,3"},
-        {"--camera-focal-point", "0,1,0.5"},
-        {"--camera-view-up", "0,0,1"},
-        {"--device", "pthread"},
-        {"--max-memory", "1073741824"},
-        {"--grid", "8,4,2"},
-        {"--lanes", "2"},
-        {"--output", "a.exr"},
-        {"--exr-compression", "zips"},
-        {"--aov-ids", "uint"},
-        {"--bits", "16"},
-        {"--frames", "3:9"},
-        {"--shard", "1/4"},
-        {"--crop", "3,2,30,20"},
-        {"--tiles", "2x3"},
-        {"--stats", "-"},
-        {"--ocio-view", "Film"},
-        {"--ocio-display", "P3"},
-        {"--ocio-input", "ACEScg"},
-        {"--camera-keys", "my keys.json"},
-        {"--reference", "r.exr"},
-        {"--difference", "d.png"},
-    };
-    return values;
-}
-
-std::string other_value(const Setting& setting) {
-    const auto special = special_values().find(setting.option());
-    if (special != special_values().end()) return special->second;
-    switch (setting.kind) {
-        case SettingKind::flag:
-            return "true";
-        case SettingKind::number:
-            return "0.75";
-        case SettingKind::count:
-            return "9";
-        case SettingKind::list:
-            return setting.words.at(0);
-        case SettingKind::choice:
-            return setting.words.at(setting.words.at(0) == setting.show() ? 1 : 0);
-        default:
-            throw Error(setting.option() + ": this test needs a value for it");
-    }
 }
 
 template <typename Options = SharedOptions>
@@ -137,18 +81,6 @@ std::map<std::string, std::string> texts_of(Options options) {
 // No result depends on these, but for the device, which conditions name on its own.
 const Names kOfNoResult = {"--strict",  "--allow-outside-paths", "--quiet", "--verbose", "--device",
                            "--progress"};
-
-TEST(Settings, EachChangesItselfAlone) {
-    const auto defaults = initial<RenderOptions>();
-    const auto before = texts_of(defaults);
-    for (const auto& changed : changed_options<RenderOptions>()) {
-        EXPECT_FALSE(changed.options == defaults) << changed.option;
-        for (const auto& [option, text] : texts_of(changed.options)) {
-            EXPECT_EQ(text, option == changed.option ? changed.text : before.at(option))
-                << changed.option << " and " << option;
-        }
-    }
-}
 
 // A member that no option reaches is one of the renderer's own, or of tests.
 TEST(Settings, ReachEveryMember) {
@@ -219,64 +151,6 @@ TEST(Settings, AreInTheKeyOfAChoice) {
     }
 }
 
-// Values of the options that bench has besides those that visit_settings() lists, or as a list.
-const std::map<std::string, std::string>& bench_values() {
-    static const std::map<std::string, std::string> values = {
-        {"--renderer", "forward,deferred"},
-        {"--resolution", "64,36;128,72"},
-        {"--lights", "10:30:10"},
-        {"--grid", "8,4,2;4,4,1"},
-        {"--lanes", "2,4"},
-        {"--gbuffer", "full,half"},
-        {"--warm-up", "3"},
-        {"--frames", "7"},
-        {"--motion", "lights"},
-        {"--output", "out"},
-        {"--job", "png,exr"},
-        {"--table", "a.csv"},
-        {"--shard", "1/2"},
-        {"--resume", "true"},
-        {"--json", "true"},
-        {"--quick", "true"},
-        {"--tune", "true"},
-    };
-    return values;
-}
-
-// What bench makes of words and of a config file.
-BenchOptions bench_options(std::vector<std::string> words, const std::filesystem::path& file = {}) {
-    BenchOptions options;
-    CLI::App app;
-    add_bench_options(app, options);
-    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
-    if (!file.empty()) apply_config_file(app, file);
-    return options;
-}
-
-TEST(Settings, OfBenchChangeItsOptionsByCommandLineAndConfigFile) {
-    const TemporaryFolder folder;
-    BenchOptions listed;
-    CLI::App app;
-    add_bench_options(app, listed);
-    std::map<std::string, std::string> values;
-    for (const Setting& s : settings_of(listed.shared)) values[s.option()] = other_value(s);
-    for (const Setting& s : settings_of(listed.budget)) values[s.option()] = other_value(s);
-    for (const auto& [option, text] : bench_values()) values[option] = text;
-    const Names questions = {"--help", "--help-all", "--list-devices"};
-    for (const CLI::Option* option : app.get_options()) {
-        const std::string name = option->get_positional() ? "SCENE" : option->get_name();
-        // bench makes no pictures to look at, and refuses a background.
-        if (questions.contains(name) || name == "--background") continue;
-        ASSERT_TRUE(values.contains(name)) << name << ": this test needs a value for it";
-        const std::string& text = values.at(name);
-        const BenchOptions changed = bench_options({name == "SCENE" ? text : name + "=" + text});
-        EXPECT_FALSE(changed == bench_options({})) << name;
-        const std::string word = name == "SCENE" ? "scene" : name.substr(2);
-        write_text(folder / "a.json", nlohmann::json{{word, text}}.dump());
-        EXPECT_TRUE(bench_options({}, folder / "a.json") == changed) << name;
-    }
-}
-
 // Rows of other frames may not be added to those of a file.
 TEST(Settings, OfBenchThatChangeItsFramesRefuseAResume) {
     const TemporaryFolder folder;
@@ -288,12 +162,11 @@ TEST(Settings, OfBenchThatChangeItsFramesRefuseAResume) {
                                {}, options.shard);
     };
     const std::filesystem::path file = folder / "bench.context.json";
-    write_text(file, document(bench_options({})).dump());
-    EXPECT_NO_THROW(require_same_context(file, document(bench_options({"--json"}))));
-    for (const char* option : {"--warm-up", "--frames", "--motion", "--shard"}) {
-        const BenchOptions changed =
-            bench_options({option + std::string("=") + bench_values().at(option)});
-        EXPECT_THROW(require_same_context(file, document(changed)), Error) << option;
+    write_text(file, document(parsed<BenchOptions>({})).dump());
+    EXPECT_NO_THROW(require_same_context(file, document(parsed<BenchOptions>({"--json"}))));
+    for (const char* word : {"--warm-up=3", "--frames=7", "--motion=lights", "--shard=1/2"}) {
+        EXPECT_THROW(require_same_context(file, document(parsed<BenchOptions>({word}))), Error)
+            << word;
     }
 }
 
@@ -327,23 +200,6 @@ TEST(Settings, OfThePanelComeBack) {
         EXPECT_FALSE(again == start) << changed.option;
     }
     EXPECT_EQ(found, panel.size());
-}
-
-TEST(Settings, ComeFromConfigFiles) {
-    const TemporaryFolder folder;
-    for (const auto& changed : changed_options<RenderOptions>()) {
-        const nlohmann::json text = changed.text;
-        write_text(folder / "a.toml", changed.word + " = " + text.dump() + "\n");
-        write_text(folder / "a.json", nlohmann::json{{changed.word, changed.text}}.dump());
-        for (const char* name : {"a.toml", "a.json"}) {
-            auto options = initial<RenderOptions>();
-            CLI::App app;
-            add_options(app, options);
-            app.parse(std::vector<std::string>{});
-            apply_config_file(app, folder / name);
-            EXPECT_EQ(options, changed.options) << changed.option << " by " << name;
-        }
-    }
 }
 
 // A picture's note holds the options that change it, and --skip-existing refuses it by them.

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "host/scene/lights/bounded_loss.h"
+#include "present/cli/option_builder.h"
 #include "present/cli/options.h"
 #include "present/cli/scene_choice.h"
 #include "tests/support/lit_hall.h"
@@ -29,7 +30,7 @@ class TailsChoice : public testing::Test {
         options_ = {};
         options_.shows_environment = true;
         options_.compares_renderers = compares_renderers_;
-        add_shared_options(app, options_);
+        add_options(app, options_);
         app.parse((folder_ / "hall.glb").string() + " -q --ambient 0 --resolution 48,27 " + more);
         AnimatedScene opened = open_animated_scene(options_);
         std::string line = light_scene(options_, opened);

@@ -239,17 +239,40 @@ TEST(Reflections, LeaveUnlitSurfacesAlone) {
     EXPECT_EQ(render_once(scene, settings).radiance, plain.radiance);
 }
 
+// Bytes that are planned for a picture, and that its device buffers take.
+struct PictureBytes {
+    std::uint64_t planned, allocated;
+};
+
+PictureBytes picture_bytes(const Scene& scene, RenderSettings settings) {
+    settings.want = radiance_only();
+    Renderer renderer(scene, settings);
+    renderer.render(first_camera(scene), 0.0);
+    const ScenePlan plan = make_scene_plan(scene, settings, settings.lights.count);
+    return {plan_memory(scene, settings, plan, renderer.gpu().info).bytes,
+            renderer.gpu().budget->used};
+}
+
 TEST(Background, ItsTexelsCountAsMemory) {
     const Scene scene = lonely_box();
     RenderSettings settings = small_settings(48, 27, 0);
-    const auto planned = [&] {
-        return plan_memory(scene, settings, make_scene_plan(scene, settings, 1),
-                           describe(choose_device(settings.device)))
-            .bytes;
-    };
-    const auto without = planned();
+    const PictureBytes without = picture_bytes(scene, settings);
     settings.background = map_of_directions();
-    EXPECT_EQ(planned() - without, 64u * 32u * 12u * 4u / 3u);
+    const PictureBytes with = picture_bytes(scene, settings);
+    EXPECT_EQ(with.planned - without.planned, 64u * 32u * 12u * 4u / 3u);
+    EXPECT_LE(with.allocated - without.allocated, with.planned - without.planned);
+    EXPECT_GT(with.allocated - without.allocated, (with.planned - without.planned) * 99 / 100);
+}
+
+TEST(Reflections, TheirMapsCountAsMemory) {
+    const Scene scene = lonely_box();
+    RenderSettings settings = small_settings(48, 27, 0);
+    const PictureBytes without = picture_bytes(scene, settings);
+    settings.reflections =
+        std::make_shared<const PrefilteredEnvironment>(prefiltered(*map_of_directions()));
+    const PictureBytes with = picture_bytes(scene, settings);
+    EXPECT_GT(with.allocated, without.allocated);
+    EXPECT_EQ(with.planned - without.planned, with.allocated - without.allocated);
 }
 
 }  // namespace

@@ -3,7 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <initializer_list>
+
+#include "host/stages/lists/mask_tiles.h"
 #include "host/stages/surfaces/bin_triangles.h"
+#include "host/stages/surfaces/raster_triangles.h"
+#include "raster/gl_context.h"
+#include "raster/solid_pass.h"
 #include "tests/support/messages.h"
 #include "tests/support/render_fixture.h"
 
@@ -90,6 +96,71 @@ TEST(MemoryPlan, CountsWhatAutomaticGeometryAndTheDifferenceTake) {
               wider(ViewKind::albedo, 4096) - wider(ViewKind::albedo, 64));
 }
 
+std::uint64_t texel_bits(GLuint texture, std::initializer_list<GLenum> parts) {
+    std::uint64_t bits = 0;
+    for (const GLenum part : parts) {
+        GLint some = 0;
+        glGetTextureLevelParameteriv(texture, 0, part, &some);
+        bits += static_cast<std::uint64_t>(some);
+    }
+    return bits;
+}
+
+// The host holds a mesh twice, with the attributes that it has.
+TEST(MemoryPlan, CountsTheAttributesThatMeshesHave) {
+    Scene scene = make_generated_scene("plain");
+    RenderSettings settings = small_settings(64, 64, 0);
+    settings.geometry = Geometry::planes;
+    const std::uint64_t without = plan(scene, settings).bytes;
+    scene.meshes[0].colors.resize(1000);
+    EXPECT_EQ(plan(scene, settings).bytes - without, 2 * 1000 * sizeof(glm::vec4));
+}
+
+// OpenGL's targets of the ids, which drawing in OpenCL lacks.
+TEST(MemoryPlan, CountsTheTargetsOfIds) {
+    const Scene scene = make_generated_scene("plain");
+    RenderSettings settings = small_settings(64, 48, 0);
+    settings.geometry = Geometry::ids;
+    settings.max_memory_bytes = std::uint64_t{1} << 30;
+    const auto planned = [&](bool draws_in_opencl) {
+        return plan_memory(scene, settings, make_scene_plan(scene, settings, 0), cpu(),
+                           draws_in_opencl)
+            .bytes;
+    };
+    const GlContext context = GlContext::headless();
+    const GpuScene gpu_scene(scene, 1, GpuSceneUse::covered);
+    IdsPass ids(gpu_scene);
+    ids.draw(first_camera(scene), settings.width, settings.height);
+    const std::uint64_t bits =
+        texel_bits(ids.targets().color_texture(0), {GL_TEXTURE_RED_SIZE, GL_TEXTURE_GREEN_SIZE,
+                                                    GL_TEXTURE_BLUE_SIZE, GL_TEXTURE_ALPHA_SIZE}) +
+        texel_bits(ids.targets().depth_texture(), {GL_TEXTURE_DEPTH_SIZE, GL_TEXTURE_STENCIL_SIZE});
+    EXPECT_EQ(planned(false) - planned(true), 64u * 48u * bits / 8);
+}
+
+// A band has the ids that its surfaces are resolved from, and with --samples auto those that are
+// left of them.
+TEST(MemoryPlan, CountsTheIdsOfBands) {
+    const Scene scene = make_generated_scene("plain");
+    RenderSettings settings = small_settings(64, 48, 0);
+    settings.max_memory_bytes = std::uint64_t{1} << 30;
+    const auto rows_of_64 = [&](Geometry geometry) {
+        settings.geometry = geometry;
+        const auto planned = [&](int height) {
+            settings.height = height;
+            return plan_memory(scene, settings, make_scene_plan(scene, settings, 0), cpu(), true)
+                .bytes;
+        };
+        return planned(128) - planned(64);
+    };
+    constexpr std::uint64_t kPixels = 64 * 64;
+    EXPECT_EQ(rows_of_64(Geometry::compute) - rows_of_64(Geometry::planes),
+              kPixels * RasterTriangles::kPixelBytes);
+    settings.auto_samples.on = true;
+    EXPECT_EQ(rows_of_64(Geometry::compute) - rows_of_64(Geometry::planes),
+              kPixels * (RasterTriangles::kPixelBytes + MaskTiles::kPixelBytes));
+}
+
 // Each takes its part; messages say what is divided.
 TEST(MemoryPlan, RenderersShareTheMemory) {
     const Scene scene = make_generated_scene("plain");
@@ -133,7 +204,7 @@ TEST(MemoryPlan, TheProgramAloneMayBeTooLarge) {
         settings.max_memory_bytes = mebibytes << 20;
         return message_of<Error>([&] { check_light_memory(lights, settings); });
     };
-    for (const std::uint64_t lights : {0, 1, 5000}) {
+    for (const std::uint64_t lights : {0u, 1u, 5000u}) {
         EXPECT_EQ(refused(lights, 1),
                   "memory: the program with its drivers needs at least 256 MiB; --max-memory is 1 "
                   "MiB");

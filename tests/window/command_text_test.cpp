@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/window/app/command_text.h"
+#include "present/cli/option_builder.h"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +21,7 @@ SharedOptions parsed(const std::string& command) {
     words.resize(words.size() - 2);                 // -o kilolux.png
     SharedOptions options;
     CLI::App app;
-    add_shared_options(app, options);
+    add_options(app, options);
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
     return options;
 }

@@ -4,7 +4,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cassert>
 
+#include "host/measure/report/columns.h"
 #include "host/measure/roofline/stages.h"
 #include "host/stages/tails/cut_light_tree.h"
 
@@ -12,84 +14,29 @@ namespace kilolux {
 namespace {
 
 using Row = ReportRow;
-using Errors = PictureErrors;
 
-std::string size_text(int width, int height) { return fmt::format("{}x{}", width, height); }
-
-std::string error_size_text(const Row& row) {
-    return size_text(row.picture.width, row.picture.height);
-}
-
-std::vector<std::string> stage_names(const std::vector<Row>& rows) {
-    std::vector<std::string> names;
-    for (const Row& row : rows) {
-        for (const ReportStage& stage : row.speed.stages) {
-            if (std::ranges::count(names, stage.name) == 0) names.push_back(stage.name);
-        }
-    }
-    return names;
-}
-
-// A column of the sum of the medians of stages by their names; empty where none of them ran.
-template <typename IsSummed>
-Column<Row> sum_column(const std::string& name, IsSummed is_summed) {
-    return {name, [is_summed](const Row& row) {
+// The sum of the medians of a group's stages; empty where none of them ran.
+Column<Row> group_column(const std::string& name, StageGroup group) {
+    return {name, [group](const Row& row) {
                 std::optional<double> sum;
                 for (const ReportStage& stage : row.speed.stages) {
-                    if (is_summed(stage.name)) sum = sum.value_or(0.0) + stage.ms.median;
+                    if (group_of(stage.name) == group) sum = sum.value_or(0.0) + stage.ms.median;
                 }
                 return sum;
             }};
 }
 
-Column<Row> stage_column(const std::string& name, std::string_view stage) {
-    return sum_column(name,
-                      [stage = std::string(stage)](const std::string& s) { return s == stage; });
-}
-
-Column<Row> group_column(const std::string& name, StageGroup group) {
-    return sum_column(name, [group](const std::string& s) { return group_of(s) == group; });
-}
-
-// A column of a count that is negative where nothing was counted.
-Column<Row> count_column(const char* name, double ReportSpeed::*count) {
-    return {name, [count](const Row& row) {
-                const double value = row.speed.*count;
-                return value < 0.0 ? Cell() : Cell(value);
-            }};
-}
-
-Cell useful_share(const Row& row) {
-    const ReportSpeed& s = row.speed;
-    return s.k > 0.0 && s.useful_k >= 0.0 ? Cell(s.useful_k / s.k) : Cell();
-}
-
-std::string front_text(const Row& row) {
-    if (row.surfaces_front && row.unbounded_front) return "R2 R3";
-    return row.surfaces_front ? "R2" : (row.unbounded_front ? "R3" : "");
-}
-
-// The errors against one reference.
-void add_errors(std::vector<Column<Row>>& columns, const std::string& of, Errors Row::*errors) {
-    for (const ErrorMetric& metric : error_metrics()) {
-        columns.push_back({fmt::format("{} {}", of, metric.column),
-                           [=](const Row& row) { return metric.value(row.*errors); }});
-    }
-    columns.push_back({of + " worst pixel",
-                       [=](const Row& row) { return pixel_text((row.*errors).hdr.absolute); }});
-    columns.push_back({of + " worst rel pixel",
-                       [=](const Row& row) { return pixel_text((row.*errors).hdr.relative); }});
+// A column of report_table() under another name.
+Column<Row> renamed(const std::string& name, std::string_view column) {
+    static const std::vector<ReportColumn> all = report_columns({});
+    const auto found = std::ranges::find(all, column, &ReportColumn::name);
+    assert(found != all.end());
+    Column<Row> out = *found;
+    out.name = name;
+    return out;
 }
 
 bool casts_shadows(const Row& row) { return row.setting.settings.shadows != Shadows::off; }
-
-// Whether devices of several names have measured the errors.
-bool has_unlike_devices(const std::vector<Row>& rows) {
-    const auto is_unlike = [&](const Row& row) {
-        return row.gpu && row.gpu->info.name != rows.front().gpu->info.name;
-    };
-    return std::ranges::any_of(rows, is_unlike);
-}
 
 bool has_estimate(const Row& row) { return row.estimate.has_value(); }
 
@@ -97,22 +44,10 @@ bool has_estimate_of(const Row& row, EstimateKind kind) {
     return row.estimate && row.estimate->kind == kind;
 }
 
-// Columns of the estimated errors, where a row has one.
 void add_estimates(std::vector<Column<Row>>& columns, const std::vector<Row>& rows) {
-    if (std::ranges::none_of(rows, has_estimate)) return;
-    columns.push_back({"estimate", [](const Row& row) {
-                           if (!row.estimate) return Cell();
-                           return Cell(row.estimate->kind == EstimateKind::bound ? "bound"
-                                                                                 : "standard");
-                       }});
-    columns.push_back({"estimated error", [](const Row& row) {
-                           return row.estimate ? Cell(row.estimate->estimated) : Cell();
-                       }});
-    columns.push_back({"estimated / error", [](const Row& row) {
-                           const bool errs = row.estimate && row.estimate->error > 0.0;
-                           return errs ? Cell(row.estimate->estimated / row.estimate->error)
-                                       : Cell();
-                       }});
+    for (const ReportColumn& column : estimate_columns()) {
+        if (column.is_shown(rows)) columns.push_back(column);
+    }
 }
 
 // Frame time against `error`, of the rows that have one above 0, and its Pareto front.
@@ -178,72 +113,36 @@ constexpr PlotKind kPlots[] = {
 }  // namespace
 
 Table report_table(const std::vector<Row>& rows) {
-    std::vector<Column<Row>> columns = {
-        {"setting", [](const Row& row) { return row.setting.name; }},
-        {"axis", [](const Row& row) { return axis_name(row.setting.axis); }},
-        {"options", [](const Row& row) { return row.setting.options; }},
-        {"pareto", front_text},
-        {"frame [ms]", [](const Row& row) { return row.speed.frame_ms; }},
-        {"times default", [](const Row& row) { return row.speed.relative; }},
-        {"times default 5 %", [](const Row& row) { return row.speed.relative_p5; }},
-        {"times default 95 %", [](const Row& row) { return row.speed.relative_p95; }},
-        {"noise", [](const Row& row) { return row.speed.noise; }},
-        {"frames", [](const Row& row) { return row.speed.frames; }},
-        {"scaled", [](const Row& row) { return row.speed.scaled ? "by pixels" : ""; }}};
-    for (const std::string& stage : stage_names(rows)) {
-        columns.push_back(stage_column(stage + " [ms]", stage));
+    std::vector<Column<Row>> columns;
+    for (const ReportColumn& column : report_columns(stage_names(rows))) {
+        if (column.is_shown == nullptr || column.is_shown(rows)) columns.push_back(column);
     }
-    columns.insert(
-        columns.end(),
-        {count_column("k", &ReportSpeed::k),
-         count_column("k*", &ReportSpeed::useful_k),
-         {"k*/k", useful_share},
-         {"G evaluations/s", [](const Row& row) { return 1e-9 * row.speed.evaluations_per_s; }},
-         {"cut-off", &Row::cut_off},
-         {"missed lights", &Row::missed_lights},
-         {"error size", error_size_text}});
-    if (has_unlike_devices(rows)) {
-        columns.push_back({"errors by", [](const Row& row) { return row.gpu->info.name; }});
-    }
-    add_errors(columns, "R1", &Row::kernels);
-    add_errors(columns, "R2", &Row::surfaces);
-    add_errors(columns, "R3", &Row::unbounded);
-    columns.insert(
-        columns.end(),
-        {{"rasterised rmse", [](const Row& row) { return row.rasterised.rmse; }},
-         {"rasterised 99.9 % rel",
-          [](const Row& row) { return row.rasterised.relative.percentile_99_9; }},
-         {"rasterised max rel", [](const Row& row) { return row.rasterised.relative.max; }},
-         {"tails rmse", [](const Row& row) { return row.tails.rmse; }},
-         {"tails relmse", [](const Row& row) { return row.tails.rel_mse; }}});
-    add_estimates(columns, rows);
     return make_table(columns, rows);
 }
 
 Table report_summary(const std::vector<Row>& rows) {
-    std::vector<Column<Row>> columns = {
-        {"setting", [](const Row& row) { return row.setting.name; }},
-        {"Pareto", front_text},
-        {"frame [ms]", [](const Row& row) { return row.speed.frame_ms; }},
-        {"x default", [](const Row& row) { return row.speed.relative; }},
-        group_column("draw", StageGroup::surfaces),
-        group_column("lists", StageGroup::lists),
-        group_column("shade", StageGroup::shading),
-        count_column("k", &ReportSpeed::k),
-        {"k*/k", useful_share},
-        {"G eval/s", [](const Row& row) { return 1e-9 * row.speed.evaluations_per_s; }},
-        {"R1 max rel", [](const Row& row) { return row.kernels.hdr.relative.max; }},
-        {"R1 RMSE", [](const Row& row) { return row.kernels.hdr.rmse; }},
-        {"rasterised RMSE", [](const Row& row) { return row.rasterised.rmse; }},
-        {"R2 RMSE", [](const Row& row) { return row.surfaces.hdr.rmse; }},
-        {"R2 PSNR [dB]", [](const Row& row) { return row.surfaces.hdr.psnr_db; }},
-        {"R2 SSIM", [](const Row& row) { return row.surfaces.ssim; }},
-        {"R2 FLIP", [](const Row& row) { return row.surfaces.flip.mean; }},
-        {"R3 RMSE", [](const Row& row) { return row.unbounded.hdr.rmse; }},
-        {"R3 FLIP", [](const Row& row) { return row.unbounded.flip.mean; }}};
-    if (std::ranges::any_of(rows, casts_shadows)) {
-        const auto shade = std::ranges::find(columns, "shade", &Column<Row>::name);
-        columns.insert(shade, group_column("cast", StageGroup::shadows));
+    std::vector<Column<Row>> columns = {renamed("setting", "setting"),
+                                        renamed("Pareto", "pareto"),
+                                        renamed("frame [ms]", "frame [ms]"),
+                                        renamed("x default", "times default"),
+                                        group_column("draw", StageGroup::surfaces),
+                                        group_column("lists", StageGroup::lists)};
+    if (std::ranges::any_of(rows, casts_shadows))
+        columns.push_back(group_column("cast", StageGroup::shadows));
+    columns.push_back(group_column("shade", StageGroup::shading));
+    for (const auto& [name, column] : {std::pair{"k", "k"},
+                                       {"k*/k", "k*/k"},
+                                       {"G eval/s", "G evaluations/s"},
+                                       {"R1 max rel", "R1 max rel"},
+                                       {"R1 RMSE", "R1 rmse"},
+                                       {"rasterised RMSE", "rasterised rmse"},
+                                       {"R2 RMSE", "R2 rmse"},
+                                       {"R2 PSNR [dB]", "R2 psnr [dB]"},
+                                       {"R2 SSIM", "R2 ssim"},
+                                       {"R2 FLIP", "R2 flip mean"},
+                                       {"R3 RMSE", "R3 rmse"},
+                                       {"R3 FLIP", "R3 flip mean"}}) {
+        columns.push_back(renamed(name, column));
     }
     add_estimates(columns, rows);
     return make_table(columns, rows);
@@ -256,25 +155,26 @@ Table cut_off_table(const std::vector<Row>& rows) {
     }
     if (shown.size() < 2) shown.clear();
     std::vector<Column<Row>> columns = {
-        {"setting", [](const Row& row) { return row.setting.name; }},
+        renamed("setting", "setting"),
         {"Pareto", [](const Row& row) { return row.tails_front ? "yes" : ""; }},
-        {"frame [ms]", [](const Row& row) { return row.speed.frame_ms; }},
-        {"x default", [](const Row& row) { return row.speed.relative; }},
+        renamed("frame [ms]", "frame [ms]"),
+        renamed("x default", "times default"),
         stage_column("cut [ms]", kCutLightTreeStage.name),
         group_column("shade [ms]", StageGroup::shading),
-        count_column("k", &ReportSpeed::k),
-        {"tails RMSE", [](const Row& row) { return row.tails.rmse; }},
-        {"tails relMSE", [](const Row& row) { return row.tails.rel_mse; }},
-        {"R3 RMSE", [](const Row& row) { return row.unbounded.hdr.rmse; }}};
+        renamed("k", "k"),
+        renamed("tails RMSE", "tails rmse"),
+        renamed("tails relMSE", "tails relmse"),
+        renamed("R3 RMSE", "R3 rmse")};
     add_estimates(columns, shown);
-    columns.push_back({"time", [](const Row& row) { return row.speed.scaled ? "by pixels" : ""; }});
+    columns.push_back(renamed("time", "scaled"));
     return make_table(columns, shown);
 }
 
 std::string report_notes(const std::vector<Row>& rows) {
     const RenderSettings& s = rows.front().setting.settings;
     return fmt::format(
-        "Errors are measured on pictures of {} pixels (--error-width sets this), times on {}.\n"
+        "Errors are measured on pictures of {}x{} pixels (--error-width sets this), times on "
+        "{}x{}.\n"
         "x default: frame time relative to the default's, median over pairs of frames.\n"
         "k: lights evaluated per surface pixel. k*: those of them in range. k*/k: the useful "
         "share.\n"
@@ -283,7 +183,7 @@ std::string report_notes(const std::vector<Row>& rows) {
         "unquantised surfaces.\n"
         "R2: against float64 ray casting, the error of the whole picture. R3: as R2, with lights "
         "of unlimited range.\n{}",
-        error_size_text(rows.front()), size_text(s.width, s.height),
+        rows.front().picture.width, rows.front().picture.height, s.width, s.height,
         std::ranges::any_of(rows, has_estimate)
             ? "estimated error: a bound (the median over the pixels) or a standard error (the root "
               "mean square); estimated / error: its ratio to the same of the actual error.\n"

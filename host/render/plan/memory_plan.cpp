@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <span>
 
 #include "host/base/error.h"
 #include "host/base/system/memory.h"
@@ -18,11 +19,13 @@
 #include "host/stages/lights/prepare_lights.h"
 #include "host/stages/lists/bin_pixels.h"
 #include "host/stages/lists/count_lights.h"
+#include "host/stages/lists/mask_tiles.h"
 #include "host/stages/picture/adaptive_samples.h"
 #include "host/stages/picture/sum_samples.h"
 #include "host/stages/shadows/shadow_origins.h"
 #include "host/stages/surfaces/bin_triangles.h"
 #include "host/stages/surfaces/decode_gbuffer.h"
+#include "host/stages/surfaces/raster_triangles.h"
 #include "host/surfaces/shadow_scene.h"
 #include "host/surfaces/surface_scene.h"
 #include "kernels/shared/cluster_grid.h"
@@ -68,13 +71,14 @@ std::string limit_text(const RenderSettings& settings) {
                                          : "there are " + whole + " to use (--max-memory)";
 }
 
+Bytes bytes_of(const auto&... vectors) { return (std::span(vectors).size_bytes() + ...); }
+
 // Bytes of the scene on the host; once more for OpenGL where its fragments sample the images.
 Bytes scene_bytes(const Scene& scene, bool sampled_by_gl) {
     Bytes bytes = 0;
     for (const Mesh& mesh : scene.meshes) {
-        constexpr Bytes kVertex =
-            2 * sizeof(glm::vec3) + 2 * sizeof(glm::vec4) + 2 * sizeof(glm::vec2);
-        bytes += mesh.positions.size() * kVertex + mesh.indices.size() * sizeof(std::uint32_t);
+        bytes += bytes_of(mesh.positions, mesh.normals, mesh.tangents, mesh.texcoords[0],
+                          mesh.texcoords[1], mesh.colors, mesh.indices);
     }
     Bytes images = 0;
     for (const Image& image : scene.images) images += image.rgba.size() * 4 / 3;
@@ -119,10 +123,13 @@ Bytes scene_device_bytes(const Scene& scene, const RenderSettings& settings, con
 }
 
 // Bytes of a pixel of a band.
-Bytes band_pixel_bytes(const RenderSettings& settings, const ScenePlan& plan, bool blends) {
+Bytes band_pixel_bytes(const RenderSettings& settings, const ScenePlan& plan, bool ids,
+                       bool blends) {
     const bool decodes = settings.want.pixels();
     Bytes bytes =
         static_cast<Bytes>(plan.gbuffer_bytes_per_pixel) + kBandPixel + BinPixels::kPixelBytes;
+    if (ids) bytes += RasterTriangles::kPixelBytes;  // or as many that OpenGL hands over
+    if (ids && settings.auto_samples.on) bytes += MaskTiles::kPixelBytes;
     if (plan.kernels.shadows) bytes += ShadowOrigins::kPixelBytes;
     if (settings.auto_samples.on) {
         bytes += AdaptiveSamples::kPixelBytes;
@@ -156,7 +163,7 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
         target_pixel += ids ? IdsPass::kPixelBytes : plan_targets(plan.gbuffer).pixel_bytes;
     }
     need.fixed += width * tile_rows * target_pixel;
-    need.band_pixel = band_pixel_bytes(settings, plan, blends);
+    need.band_pixel = band_pixel_bytes(settings, plan, ids, blends);
     need.largest_element =
         std::max<Bytes>(settings.want.pixels() ? DecodeGBuffer::kPixelBytes : Radiance::kPixelBytes,
                         static_cast<Bytes>(plan.gbuffer_bytes_per_pixel));

@@ -2,11 +2,6 @@
 #include "host/stages/lists/count_lights.h"
 
 namespace kilolux {
-namespace {
-
-constexpr std::string_view kCountLightsStage = "count_lights";
-
-}  // namespace
 
 CountLights::CountLights(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
     : tuning_(tuning),

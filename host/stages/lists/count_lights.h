@@ -4,8 +4,11 @@
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/stage_info.h"
 
 namespace kilolux {
+
+inline constexpr StageInfo kCountLightsStage = {"count_lights", StageGroup::lists};
 
 /// Lights per pixel: planes uint[height][stride], ~0 for background.
 struct LightCounts {

@@ -2,11 +2,6 @@
 #include "host/stages/lists/mask_tiles.h"
 
 namespace kilolux {
-namespace {
-
-constexpr std::string_view kMaskTilesStage = "mask_tiles";
-
-}  // namespace
 
 MaskTiles::MaskTiles(const Gpu& gpu, const Tuning& tuning)
     : tuning_(tuning),

@@ -4,11 +4,6 @@
 #include "host/gpu/memory/picture_memory.h"
 
 namespace kilolux {
-namespace {
-
-constexpr std::string_view kPackRadianceStage = "pack_radiance";
-
-}  // namespace
 
 PackRadiance::PackRadiance(const Gpu& gpu, const Tuning& tuning, RadianceFormat format)
     : tuning_(tuning),

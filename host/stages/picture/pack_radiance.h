@@ -4,8 +4,11 @@
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/stage_info.h"
 
 namespace kilolux {
+
+inline constexpr StageInfo kPackRadianceStage = {"pack_radiance", StageGroup::picture};
 
 /// Four floats, or four halves (values above 65504 become 65504); or a 2D image of any format that
 /// takes floats.

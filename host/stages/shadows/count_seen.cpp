@@ -2,11 +2,6 @@
 #include "host/stages/shadows/count_seen.h"
 
 namespace kilolux {
-namespace {
-
-constexpr std::string_view kCountSeenStage = "count_seen";
-
-}  // namespace
 
 CountSeen::CountSeen(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
     : tuning_(tuning),

@@ -4,9 +4,12 @@
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/stage_info.h"
 #include "host/gpu/surface_flow.h"
 
 namespace kilolux {
+
+inline constexpr StageInfo kCountSeenStage = {"count_seen", StageGroup::shadows};
 
 /// Lights per pixel: planes uint[height][stride], undefined for background.
 struct SeenCounts {

@@ -4,11 +4,6 @@
 #include "host/base/formats/mips.h"
 
 namespace kilolux {
-namespace {
-
-constexpr std::string_view kBuildMipsStage = "build_mips";
-
-}  // namespace
 
 BuildMips::BuildMips(const Gpu& gpu, const Tuning& tuning)
     : gpu_(gpu),

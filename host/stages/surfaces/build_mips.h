@@ -6,9 +6,12 @@
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/stage_info.h"
 #include "kernels/shared/surface_scene.h"
 
 namespace kilolux {
+
+inline constexpr StageInfo kBuildMipsStage = {"build_mips", StageGroup::surfaces};
 
 /// 8-bit images -> linear texels of 16 bits a channel, with mip levels.
 class BuildMips {

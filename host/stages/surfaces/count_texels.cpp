@@ -4,8 +4,6 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kCountTexelsStage = "count_texels";
-
 KernelProgram texel_count_program(const Gpu& gpu, const Tuning& tuning,
                                   const SurfaceFeatures& surfaces) {
     BuildOptions options;

@@ -4,9 +4,12 @@
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/stage_info.h"
 #include "host/gpu/surface_flow.h"
 
 namespace kilolux {
+
+inline constexpr StageInfo kCountTexelsStage = {"count_texels", StageGroup::surfaces};
 
 /// Counts the texels that each pixel's surface reads. For limits.
 class CountTexels {

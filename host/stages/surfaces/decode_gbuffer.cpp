@@ -4,11 +4,6 @@
 #include "kernels/shared/surface_planes.h"
 
 namespace kilolux {
-namespace {
-
-constexpr std::string_view kDecodeGbufferStage = "decode_gbuffer";
-
-}  // namespace
 
 DecodeGBuffer::DecodeGBuffer(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
     : tuning_(tuning),

@@ -4,9 +4,12 @@
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/stage_info.h"
 #include "kernels/shared/surface_planes.h"
 
 namespace kilolux {
+
+inline constexpr StageInfo kDecodeGbufferStage = {"decode_gbuffer", StageGroup::surfaces};
 
 /// Decodes the G-buffer as shading does to float planes: for AOVs, views and references.
 class DecodeGBuffer {

@@ -14,6 +14,8 @@ inline constexpr StageInfo kRasterTrianglesStage = {"raster_triangles", StageGro
 /// Draws tiles' triangles as triangle ids.
 class RasterTriangles {
  public:
+    static constexpr std::size_t kPixelBytes = sizeof(uint);  // an id
+
     RasterTriangles(const Gpu& gpu, const Tuning& tuning, const SurfaceFeatures& features);
 
     /// ids[view.height][view.stride]: 0 for background, else 1 + the triangle's number along the

@@ -7,8 +7,6 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kRepackGbufferStage = "repack_gbuffer";
-
 // The source in the kernel's form.
 struct RepackSource {
     const SourceGBuffer& planes;

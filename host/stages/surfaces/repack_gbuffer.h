@@ -7,8 +7,11 @@
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/stage_info.h"
 
 namespace kilolux {
+
+inline constexpr StageInfo kRepackGbufferStage = {"repack_gbuffer", StageGroup::surfaces};
 
 /// The format of a pixel of another renderer's depth buffer: a float, or 24 bits, the lower
 /// (Direct3D, Vulkan) or the upper (OpenGL's UNSIGNED_INT_24_8) of 32.

@@ -13,13 +13,6 @@
 namespace kilolux {
 namespace {
 
-struct AssembleOptions {
-    std::filesystem::path output;
-    std::vector<std::filesystem::path> tiles;
-    ProgressKind progress = ProgressKind::automatic;
-    bool quiet = false;
-};
-
 void run_assemble(AssembleOptions& options) {
     constexpr std::size_t kSteps = 100;
     refuse_if(options.output.empty(), "--output: needs a file, e.g. -o whole.exr");
@@ -36,23 +29,27 @@ void run_assemble(AssembleOptions& options) {
     note(fmt::format("wrote   {} of {} tiles", options.output.string(), options.tiles.size()));
 }
 
-void add_assemble_options(CLI::App& command, AssembleOptions& options) {
-    command
-        .add_option("TILE", options.tiles, "Files of render --tiles, or of --crop, in any order")
-        ->required()
-        ->type_name("FILE");
-    OptionBuilder(command, "Output")
+constexpr const char* kAssembleExamples =
+    "  kilolux render -o t.##.exr --resolution 65536,65536 --tiles 8x8 --shard 3/8\n"
+    "  kilolux assemble -o whole.exr t.*.exr";
+
+}  // namespace
+
+void visit_settings(AssembleOptions& options, const SettingVisitor& f) {
+    OptionBuilder(f, "Output")
         .text({"--output,-o", "FILE", "", "The picture: .exr, .png or .tif, as the tiles are"},
               options.output)
         .choice({"--progress", "", "", "How it tells how far it is"}, options.progress)
         .flag("--quiet,-q", options.quiet, "Only warnings and errors on stderr");
 }
 
-constexpr const char* kAssembleExamples =
-    "  kilolux render -o t.##.exr --resolution 65536,65536 --tiles 8x8 --shard 3/8\n"
-    "  kilolux assemble -o whole.exr t.*.exr";
-
-}  // namespace
+void add_assemble_options(CLI::App& command, AssembleOptions& options) {
+    command
+        .add_option("TILE", options.tiles, "Files of render --tiles, or of --crop, in any order")
+        ->required()
+        ->type_name("FILE");
+    add_options(command, options);
+}
 
 void add_assemble_command(Program& program) {
     program.add_command("assemble", "Join the tiles of a picture, with the bytes of the whole",

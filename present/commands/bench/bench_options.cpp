@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <set>
 
 #include "host/base/text.h"
 #include "present/cli/names.h"
@@ -44,29 +45,31 @@ std::string with_commas(std::string_view text) {
     return out;
 }
 
-void add_sweep_options(CLI::App& command, BenchAxes& a) {
+void visit_sweep(BenchAxes& a, const SettingVisitor& f) {
     using Text = const std::string&;
-    // The shared options of these names take one value; here they take lists.
-    for (const char* name :
-         {"--lights", "--renderer", "--resolution", "--gbuffer", "--grid", "--lanes"}) {
-        command.remove_option(command.get_option(name));
-    }
-    OptionBuilder(command, "Sweeps: every combination of these lists is measured")
-        .value({"--lights", "N,A:B:STEP,A:B:*F", "5000", "Generated lights"}, a.lights,
+    OptionBuilder(f, "Sweeps: every combination of these lists is measured")
+        .value({"--lights", "N,A:B:STEP,A:B:*F", "5000", "Generated lights", kNeither, "1"},
+               a.lights,
                [](Text name, Text text) {
                    return parse_count_sweep(name, text, kLightsRange.min, kLightsRange.max);
                })
         .value(
             {"--renderer", "NAME,...", "deferred", "deferred, forward-plus, forward, deferred-all"},
             a.renderers, choices_parser<RendererKind>(names_of<RendererKind>()))
-        .value({"--resolution", "W,H;W,H", "1920,1080", "Sizes in pixels"}, a.resolutions,
+        .value({"--resolution", "W,H;W,H", "1920,1080", "Sizes", kNeither, "px"}, a.resolutions,
                parse_resolutions)
         .value({"--grid", "X,Y,S;X,Y,S", "16,9,4",
-                "Coarse grids: tiles across and down, slices for each doubling of depth"},
+                "Coarse grids: tiles across and down, slices for each doubling of depth", kNeither,
+                "1"},
                a.grids, parse_grids)
-        .value({"--lanes", "N,...", "auto", "auto, 1, 2, 4, 8, 16"}, a.lanes, parse_lane_list)
-        .value({"--gbuffer", "NAME,...", "packed", "packed, full, half, normal-xy, oct-2x4"},
-               a.gbuffers, choices_parser<uint>(gbuffer_choices().names));
+        .value({"--lanes", "N,...", "auto", "auto, 1, 2, 4, 8, 16", kNeither, "1"}, a.lanes,
+               parse_lane_list)
+        .value(SettingKind::list,
+               {"--gbuffer", "NAME,...", "packed", "packed, full, half, normal-xy, oct-2x4"},
+               [&a](Text name, Text text) {
+                   a.gbuffers = choices_parser<uint>(gbuffer_choices().names)(name, text);
+               },
+               {});
 }
 
 // The types of pictures and videos: their extensions without the point.
@@ -76,9 +79,9 @@ std::vector<std::string> job_types() {
     return out;
 }
 
-void add_mode_options(CLI::App& command, BenchOptions& o) {
+void visit_mode(BenchOptions& o, const SettingVisitor& f) {
     using Text = const std::string&;
-    OptionBuilder(command, "What is measured, instead of the frames of a sweep")
+    OptionBuilder(f, "What is measured, instead of the frames of a sweep")
         .flag("--quick", o.quick, "A small sweep of lights and grid")
         .flag("--tune", o.tune,
               "Search the fastest work sizes of this device and keep them for all commands")
@@ -116,17 +119,22 @@ std::vector<std::array<int, 3>> parse_grids(const std::string& option, const std
     });
 }
 
-void add_bench_options(CLI::App& command, BenchOptions& options) {
-    options.shared.compares_renderers = true;
-    add_shared_options(command, options.shared);
-    add_sweep_options(command, options.axes);
-    add_mode_options(command, options);
-    OptionBuilder(command, "Measuring and output")
-        .count({"--warm-up", "N", text_of(BenchFrames{}.warm_up), "Frames before those that count"},
+void visit_settings(BenchOptions& options, const SettingVisitor& f) {
+    std::set<std::string> swept;  // the shared options of these names take one value, here lists
+    visit_sweep(options.axes, [&](const Setting& setting) { swept.insert(setting.option()); });
+    visit_settings(options.shared, [&](const Setting& setting) {
+        if (!swept.contains(setting.option())) f(setting);
+    });
+    visit_sweep(options.axes, f);
+    visit_mode(options, f);
+    OptionBuilder(f, "Measuring and output")
+        .count({"--warm-up", "N", text_of(BenchFrames{}.warm_up), "Frames before those that count",
+                kNeither, "1"},
                options.warm_up, {0, 1'000'000})
         .count({"--frames", "N", text_of(BenchFrames{}.measured),
                 fmt::format("Frames that count; runs with --tune; pictures with --job ({} there)",
-                            kJobPictures)},
+                            kJobPictures),
+                kNeither, "1"},
                options.frames, {1, 1'000'000})
         .choice({"--motion", "", "camera", "What moves from frame to frame"}, options.motion)
         .text({"--output,-o", "DIR", "", "Folder for CSV, JSON and plots"}, options.output)
@@ -136,7 +144,12 @@ void add_bench_options(CLI::App& command, BenchOptions& options) {
         .value({"--shard", "I/N", "0/1", shard_meaning("point of the sweep")}, options.shard,
                parse_shard)
         .flag("--json", options.json, "JSON instead of a table on standard output");
-    add_options(command, options.budget);
+    visit_settings(options.budget, f);
+}
+
+void add_bench_options(CLI::App& command, BenchOptions& options) {
+    options.shared.compares_renderers = true;
+    add_options(command, options);
 }
 
 }  // namespace kilolux

@@ -5,7 +5,8 @@
 
 namespace kilolux {
 
-/// Registers the shared options, which take lists where a sweep varies them, and the bench's own.
+/// The shared options, which take lists where a sweep varies them, and the bench's own.
+void visit_settings(BenchOptions& options, const SettingVisitor& visit);
 void add_bench_options(CLI::App& command, BenchOptions& options);
 
 /// Resolutions "W,H;W,H" and grids "X,Y,S;X,Y,S"; 1920x1080 is 1920,1080. Throw UsageError.

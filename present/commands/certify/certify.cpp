@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <optional>
-#include <set>
 
 #include "host/base/error.h"
 #include "host/base/log.h"
@@ -28,24 +26,6 @@ namespace kilolux {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr int kLaneWidths[] = {1, 2, 4, 8, 16};
-
-struct CertifyOptions {
-    std::string device;
-    std::vector<int> lanes{std::begin(kLaneWidths), std::end(kLaneWidths)};
-    std::optional<std::set<std::size_t>> cases;  // places in hard_cases(); none: all
-    std::set<std::size_t> parts;                 // places in certificate_parts()
-    bool isolate = false;
-    int jobs = 1;  // processes at once; above 1 they are isolated
-    bool resume = false;
-    bool quick = false;
-    std::vector<std::string> tables;  // --table: certificates to print instead of making one
-    std::string output;               // file, "-" for standard output, empty: none
-    ProgressKind progress = ProgressKind::automatic;
-    bool quiet = false;
-    ProgressKind shown_progress() const { return progress_kind(progress, quiet); }
-};
 
 void check(const CertifyOptions& o) {
     if (!o.tables.empty() && (o.cases || !o.parts.empty() || o.isolate || o.jobs > 1 || o.resume ||
@@ -216,27 +196,9 @@ std::vector<std::string> part_names() {
     return words;
 }
 
-void add_result_options(CLI::App& command, CertifyOptions& options) {
+void visit_run(CertifyOptions& options, const SettingVisitor& f) {
     using Text = const std::string&;
-    OptionBuilder(command, "Output")
-        .text({"--output,-o", "FILE", "",
-               "Write the result as JSON; - prints it instead of the table"},
-              options.output)
-        .value(SettingKind::list,
-               {"--table", "FILE,...", "", "Print the table of certificates (-o FILE)"},
-               [&options](Text, Text text) {
-                   for (const std::string_view file : split(text, ',')) {
-                       options.tables.emplace_back(file);
-                   }
-               },
-               {})
-        .choice({"--progress", "", "", "How it tells how far it is"}, options.progress)
-        .flag("--quiet", options.quiet, "No progress bar");
-}
-
-void add_certify_options(CLI::App& command, CertifyOptions& options) {
-    using Text = const std::string&;
-    OptionBuilder(command, "What is run")
+    OptionBuilder(f, "What is run")
         .flag("--quick", options.quick,
               "A node's admission test: every case at the device's lane width, and equality. Takes "
               "20 s on two CPU cores once the kernels are cached")
@@ -280,13 +242,30 @@ void add_certify_options(CLI::App& command, CertifyOptions& options) {
               "Each in a process of its own: a driver that ends the process fails one of them")
         .count({"--jobs", "N", "1",
                 "Processes at once, as with --isolate, at most the machine's threads; for GPUs, "
-                "where nearly all time is that of compiling"},
+                "where nearly all time is that of compiling",
+                kNeither, "1"},
                options.jobs, {1, 1024})
         .flag("--resume", options.resume,
               "Go on with the file of -o, which holds what an interrupted run with --isolate or "
               "--jobs found");
-    add_question(command, "What is run", "--list-devices", "Print the OpenCL devices and leave");
-    add_result_options(command, options);
+}
+
+void visit_result(CertifyOptions& options, const SettingVisitor& f) {
+    using Text = const std::string&;
+    OptionBuilder(f, "Output")
+        .text({"--output,-o", "FILE", "",
+               "Write the result as JSON; - prints it instead of the table"},
+              options.output)
+        .value(SettingKind::list,
+               {"--table", "FILE,...", "", "Print the table of certificates (-o FILE)"},
+               [&options](Text, Text text) {
+                   for (const std::string_view file : split(text, ',')) {
+                       options.tables.emplace_back(file);
+                   }
+               },
+               {})
+        .choice({"--progress", "", "", "How it tells how far it is"}, options.progress)
+        .flag("--quiet", options.quiet, "No progress bar");
 }
 
 constexpr const char* kCertifyExamples =
@@ -315,10 +294,15 @@ void require_all_passed(const Certificate& made) {
     if (!text.empty()) throw ComparisonFailed("certify: " + text);
 }
 
+void visit_settings(CertifyOptions& options, const SettingVisitor& f) {
+    visit_run(options, f);
+    visit_result(options, f);
+}
+
 void add_certify_command(Program& program) {
     program.add_command("certify",
                         "Run the numerically hard cases on a device; exit 3 where one fails",
-                        kCertifyExamples, add_certify_options, run_certify);
+                        kCertifyExamples, add_options<CertifyOptions>, run_certify);
 }
 
 }  // namespace kilolux

@@ -16,6 +16,7 @@
 #include "host/base/system/child_process.h"
 #include "host/base/system/interrupt.h"
 #include "host/base/system/temporary_folder.h"
+#include "present/commands/certify/certify_json.h"
 
 namespace kilolux {
 namespace {

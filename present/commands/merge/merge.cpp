@@ -100,13 +100,14 @@ void run_merge(MergeOptions& options) {
     merge_report(options, std::move(results));
 }
 
-void add_merge_options(CLI::App& command, MergeOptions& options) {
-    command
-        .add_option("RESULT", options.results,
-                    "Folders of bench -o or report -o, or their CSV files, in any order")
-        ->required()
-        ->type_name("DIR");
-    OptionBuilder(command, "Output")
+constexpr const char* kMergeExamples =
+    "  kilolux merge -o whole part.0 part.1 part.2\n"
+    "  kilolux merge -o both old new --keep-differences";
+
+}  // namespace
+
+void visit_settings(MergeOptions& options, const SettingVisitor& f) {
+    OptionBuilder(f, "Output")
         .text({"--output,-o", "DIR", "", "Folder for what one run would have written"},
               options.output)
         .flag("--keep-differences", options.keep_differences,
@@ -116,11 +117,14 @@ void add_merge_options(CLI::App& command, MergeOptions& options) {
         .flag("--quiet,-q", options.quiet, "Only warnings and errors on stderr");
 }
 
-constexpr const char* kMergeExamples =
-    "  kilolux merge -o whole part.0 part.1 part.2\n"
-    "  kilolux merge -o both old new --keep-differences";
-
-}  // namespace
+void add_merge_options(CLI::App& command, MergeOptions& options) {
+    command
+        .add_option("RESULT", options.results,
+                    "Folders of bench -o or report -o, or their CSV files, in any order")
+        ->required()
+        ->type_name("DIR");
+    add_options(command, options);
+}
 
 void add_merge_command(Program& program) {
     program.add_command("merge", "Join the results of shards of bench or report", kMergeExamples,

@@ -6,7 +6,7 @@
 #include "host/base/error.h"
 #include "host/base/log.h"
 #include "host/base/system/atomic_write.h"
-#include "host/measure/report/table_rows.h"
+#include "host/measure/report/columns.h"
 #include "host/measure/report/tables.h"
 #include "present/cli/stats_json.h"
 #include "present/commands/bench/bench.h"
@@ -21,11 +21,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Names = std::vector<std::string>;
 
-// The columns of stages stand between these, those of estimates at the end.
-constexpr const char* kBeforeStages = "scaled";
-constexpr const char* kAfterStages = "k";
-constexpr const char* kTextColumns[] = {"setting", "axis", "options", "pareto", "scaled"};
-
 std::size_t place_of(const Names& names, const std::string& name) {
     const auto found = std::ranges::find(names, name);
     if (found == names.end()) throw Error("lacks the column '" + name + "'");
@@ -38,28 +33,16 @@ std::string field_of(const TextTable& table, std::size_t row, const std::string&
     return table.rows[row][static_cast<std::size_t>(found - table.columns.begin())];
 }
 
-// The columns of one run's table: of stages in the order in which its rows have them.
-Names merged_columns(const std::vector<Result>& results, const std::vector<ResultRow>& order) {
-    const Names& first = results.front().table.columns;
-    const auto offset = [](std::size_t place) { return static_cast<std::ptrdiff_t>(place); };
-    Names out(first.begin(), first.begin() + offset(place_of(first, kBeforeStages) + 1)), rest;
-    for (const auto& [result, row] : order) {
-        const TextTable& table = results[result].table;
-        const std::size_t end = place_of(table.columns, kAfterStages);
-        for (std::size_t i = place_of(table.columns, kBeforeStages) + 1; i < end; ++i) {
-            const std::string& name = table.columns[i];
-            const bool is_new = std::ranges::find(out, name) == out.end();
-            if (is_new && !table.rows[row][i].empty()) out.push_back(name);
-        }
-        Names behind(table.columns.begin() + offset(end), table.columns.end());
-        if (behind.size() > rest.size()) rest = std::move(behind);
+// The texts of all results, with the columns of one run's table.
+TextTable merged_table(const std::vector<Result>& results, const std::vector<ResultRow>& order,
+                       const std::vector<ReportColumn>& columns) {
+    TextTable out;
+    for (const ReportColumn& column : columns) {
+        const auto has_it = [&](const Result& result) {
+            return std::ranges::count(result.table.columns, column.name) > 0;
+        };
+        if (std::ranges::any_of(results, has_it)) out.columns.push_back(column.name);
     }
-    out.insert(out.end(), rest.begin(), rest.end());
-    return out;
-}
-
-TextTable merged_table(const std::vector<Result>& results, const std::vector<ResultRow>& order) {
-    TextTable out{merged_columns(results, order), {}};
     for (const auto& [result, row] : order) {
         Names& fields = out.rows.emplace_back();
         for (const std::string& column : out.columns)
@@ -71,8 +54,9 @@ TextTable merged_table(const std::vector<Result>& results, const std::vector<Res
 // Throws Error that names the file unless it is the table of a report.
 void require_report(const Result& result) {
     try {
-        place_of(result.table.columns, kBeforeStages);
-        place_of(result.table.columns, kAfterStages);
+        for (const ReportColumn& column : report_columns({})) {
+            if (column.is_shown == nullptr) place_of(result.table.columns, column.name);
+        }
         report_rows(result.table);
     } catch (const Error& error) {
         throw Error(result.csv.string() + ": " + error.what());
@@ -91,9 +75,13 @@ void keep_own_rows(std::vector<Result>& results) {
     }
 }
 
-std::vector<ReportRow> joined_rows(const TextTable& texts, const Json& context) {
-    std::vector<ReportRow> rows = report_rows(texts);
-    for (ReportRow& row : rows) {
+std::vector<ReportRow> joined_rows(const std::vector<Result>& results,
+                                   const std::vector<ResultRow>& order, const Json& context) {
+    std::vector<std::vector<ReportRow>> parts;
+    for (const Result& result : results) parts.push_back(report_rows(result.table));
+    std::vector<ReportRow> rows;
+    for (const auto& [result, place] : order) {
+        ReportRow& row = rows.emplace_back(parts[result][place]);
         row.setting.settings.width = context.at("resolution").at(0);
         row.setting.settings.height = context.at("resolution").at(1);
         row.speed.frame_ms = row.speed.relative * rows.front().speed.frame_ms;
@@ -102,20 +90,21 @@ std::vector<ReportRow> joined_rows(const TextTable& texts, const Json& context) 
     return rows;
 }
 
-// report_table() of the rows, of which `texts` has every column.
-Table table_with_fronts(const TextTable& texts, const std::vector<ReportRow>& rows) {
+// The texts as cells, but for values that depend on all rows.
+Table joined_table(const TextTable& texts, const std::vector<ReportColumn>& columns,
+                   const std::vector<ReportRow>& rows) {
     Table out = table_of(texts);
-    const Table fronts = report_table(rows);
-    for (const char* column : {"pareto", "frame [ms]"}) {
-        const std::size_t to = place_of(out.columns, column);
-        const std::size_t from = place_of(fronts.columns, column);
-        for (std::size_t row = 0; row < rows.size(); ++row)
-            out.rows[row][to] = fronts.rows[row][from];
-    }
-    for (const char* column : kTextColumns) {
-        for (std::vector<Cell>& cells : out.rows) {
-            Cell& cell = cells[place_of(out.columns, column)];
-            if (std::holds_alternative<std::monostate>(cell)) cell = std::string();
+    for (const ReportColumn& column : columns) {
+        if (!column.is_text && !column.of_all_rows) continue;
+        const std::size_t place = place_of(out.columns, column.name);
+        for (std::size_t row = 0; row < rows.size(); ++row) {
+            Cell& cell = out.rows[row][place];
+            const bool is_empty = std::holds_alternative<std::monostate>(cell);
+            if (column.of_all_rows) {
+                cell = column.cell(rows[row]);
+            } else if (is_empty) {
+                cell = std::string();
+            }
         }
     }
     return out;
@@ -140,11 +129,11 @@ void merge_report(const MergeOptions& options, std::vector<Result> results) {
     std::ranges::for_each(results, require_report);
     keep_own_rows(results);
     const std::vector<ResultRow> order = rows_in_order(results);
-    const TextTable texts = merged_table(results, order);
     Json document = merged_document(results);
     const Json context = document.at("context");
-    const std::vector<ReportRow> rows = joined_rows(texts, context);
-    const Table table = table_with_fronts(texts, rows);
+    const std::vector<ReportRow> rows = joined_rows(results, order, context);
+    const std::vector<ReportColumn> columns = report_columns(stage_names(rows));
+    const Table table = joined_table(merged_table(results, order, columns), columns, rows);
     document["rows"] = table_json(table);
     const fs::path& folder = options.output;
     const std::string text = to_markdown(report_summary(rows), 3) + "\n" + report_notes(rows);

@@ -17,6 +17,7 @@ struct MergeOptions {
     bool keep_differences = false;
     bool check_default = false;
     bool quiet = false;
+    bool operator==(const MergeOptions&) const = default;
 };
 
 /// What a run of bench or report, or one of its shards, left.

@@ -4,7 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
 #include "host/scene/generated/scenes.h"
+#include "tests/support/paths.h"
 #include "tests/support/render_fixture.h"
 
 namespace kilolux {
@@ -27,6 +32,9 @@ TEST(Stages, OfFramesAreDeclared) {
     settings.tone_curve = ToneCurve::aces;
     settings.samples = 2;
     expect_declared(settings);
+    settings.samples = 1;
+    settings.auto_samples = {true, 0.01f, 32};
+    expect_declared(settings);
 }
 
 TEST(Stages, OfForwardFramesAreDeclared) {
@@ -35,6 +43,30 @@ TEST(Stages, OfForwardFramesAreDeclared) {
         settings.renderer = renderer;
         expect_declared(settings);
     }
+}
+
+// A kernel belongs to the stage with whose name its own begins, or to another one that launches it.
+TEST(Stages, HaveEveryKernel) {
+    const std::map<std::string, std::string> launched_by = {
+        {"store_lights", "shade"},       {"drift_lights", "move_lights"},
+        {"prefix_sum", "cull_lights"},   {"tail_bound", "tail_errors"},
+        {"tail_moments", "tail_errors"}, {"tail_variance", "tail_errors"},
+        {"tree_bound", "tail_errors"},   {"tree_cones", "cut_light_tree"},
+        {"measure_limits", ""},          {"measure_texels", ""}};  // of no picture
+    std::size_t kernels = 0;
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(source_root() + "/kernels")) {
+        if (entry.path().extension() != ".cl") continue;
+        ++kernels;
+        const std::string kernel = entry.path().stem().string();
+        const auto other = launched_by.find(kernel);
+        if (other != launched_by.end() && other->second.empty()) continue;
+        const std::string stage = other != launched_by.end() ? other->second : kernel;
+        EXPECT_TRUE(std::ranges::any_of(all_stages(), [&](const StageInfo* info) {
+            return stage.starts_with(info->name);
+        })) << kernel;
+    }
+    EXPECT_GT(kernels, 40u);
 }
 
 }  // namespace

@@ -145,7 +145,7 @@ ErrorBudget budget_with(const std::vector<std::string>& words) {
     SharedOptions shared;
     BudgetOptions options;
     CLI::App app;
-    add_shared_options(app, shared);
+    add_options(app, shared);
     add_options(app, options);
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
     return budget_of(shared, options);
@@ -222,7 +222,7 @@ TEST(ReportOptionsText, LeadsToTheSetting) {
     for (const ReportSetting& setting : report_settings(scene, base.settings, device, {})) {
         SharedOptions shared;
         CLI::App app;
-        add_shared_options(app, shared);
+        add_options(app, shared);
         std::istringstream words(setting.options);
         std::vector<std::string> arguments;
         for (std::string word; words >> word;) arguments.insert(arguments.begin(), word);

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// The columns of report_table(), for tables, for reading them back, and for merging them.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/measure/bench/table.h"
+#include "host/measure/report/compare.h"
+
+namespace kilolux {
+
+/// A column: its name, what it shows of a row, and how a row takes that back.
+struct ReportColumn : Column<ReportRow> {
+    using Column::Column;
+
+    /// Throws Error for a text that is no value. Empty: rows that are read back lack it.
+    std::function<void(ReportRow& row, const std::string& text)> take{};
+    /// The rows of a table that has it; null: every table has it.
+    bool (*is_shown)(const std::vector<ReportRow>& rows) = nullptr;
+    bool is_text = false;      // an empty field is a text, not a value that was not measured
+    bool of_all_rows = false;  // its value depends on the other rows of the table
+};
+
+/// All columns in the order of report_table(), with those of the stages in their place.
+std::vector<ReportColumn> report_columns(const std::vector<std::string>& stages);
+
+/// The columns of the estimated errors, which are the last ones.
+std::vector<ReportColumn> estimate_columns();
+
+/// The median time of a stage.
+ReportColumn stage_column(const std::string& name, std::string_view stage);
+
+/// The stages of all rows, in the order in which rows have them.
+std::vector<std::string> stage_names(const std::vector<ReportRow>& rows);
+
+/// The texts of report_table() as rows, which hold what columns take. Throws Error with the line's
+/// number.
+std::vector<ReportRow> report_rows(const TextTable& csv);
+
+}  // namespace kilolux
