@@ -193,8 +193,8 @@ SHARED_FN LightSum evaluate_directional(LightSum sum, ShadingPoint p, Directiona
 #endif
 }
 
-// Radiance of the surface from the sums over its lights.
-SHARED_FN FV3 finish_shading(Surface s, LightSum sum, float ambient) {
+// Radiance that the surface reflects, from the sums over its lights.
+SHARED_FN FV3 reflected_light(Surface s, LightSum sum) {
     FV3 albedo = s.albedo;
     FV k = fv(INV_PI);
     FV3 out_radiance;
@@ -230,10 +230,15 @@ SHARED_FN FV3 finish_shading(Surface s, LightSum sum, float ambient) {
         fv3(lane_select(lit, out_radiance.x, fv(0.0f)), lane_select(lit, out_radiance.y, fv(0.0f)),
             lane_select(lit, out_radiance.z, fv(0.0f)));
 #endif
+    return out_radiance;
+}
+
+// Radiance of the surface, from the sums over its lights.
+SHARED_FN FV3 finish_shading(Surface s, LightSum sum, float ambient) {
+    FV3 lit = reflected_light(s, sum);
     FV a = s.occlusion * fv(ambient);
-    return fv3(fma(a, albedo.x, out_radiance.x) + s.emissive.x,
-               fma(a, albedo.y, out_radiance.y) + s.emissive.y,
-               fma(a, albedo.z, out_radiance.z) + s.emissive.z);
+    return fv3(fma(a, s.albedo.x, lit.x) + s.emissive.x, fma(a, s.albedo.y, lit.y) + s.emissive.y,
+               fma(a, s.albedo.z, lit.z) + s.emissive.z);
 }
 
 #if defined(__cplusplus)
