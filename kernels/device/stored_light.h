@@ -39,7 +39,7 @@ static inline ShadeLight load_light(global const StoredLight* stored) {
     return light;
 }
 
-static inline void store_light(global StoredLight* stored, ShadeLight light) {
+static inline void store_half_light(global StoredLight* stored, ShadeLight light) {
     float4 c = light.color_scale;
     float unit = ldexp(1.0f, clamp(ilogb(max(c.x, max(c.y, c.z))), -126, 126));
     stored->position_inv_range2 = light.position_inv_range2;

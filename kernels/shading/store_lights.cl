@@ -6,5 +6,5 @@
 kernel void store_lights(global const ShadeLight* restrict lights,  // [light_count]
                          global StoredLight* restrict stored) {     // out [light_count]
     uint i = get_global_id(0);
-    store_light(stored + i, lights[i]);
+    store_half_light(stored + i, lights[i]);
 }
