@@ -95,8 +95,8 @@ namespace kilolux {
 // Reflectance of dielectrics at normal incidence (glTF 2.0, appendix B).
 #define DIELECTRIC_F0 0.04f
 
-#if !defined( \
-    GL_core_profile)  // GLSL has no enums and writes attachments; `layout` is a word of its own
+// GLSL has no enums and writes attachments; `layout` is a word of its own there.
+#if !defined(GL_core_profile)
 // Float planes of a decoded G-buffer.
 #define THREE_PLANES(has, member, decoded, plane, value) decoded, decoded##_Y, decoded##_Z,
 #define ONE_PLANE(has, member, decoded, plane, value) decoded,
