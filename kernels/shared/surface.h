@@ -70,6 +70,9 @@ SHARED_FN Surface plain_surface() {
 // Unlit surfaces send their emissive light alone.
 SHARED_FN MASK is_lit(Surface s) { return s.roughness > fv(UNLIT_ROUGHNESS); }
 
+// The terms of a BRDF that have sums of their own. TERM(has, member): whether the model has it.
+#define LIGHT_TERMS(TERM) TERM(true, diffuse) TERM(SHADING != SHADING_LAMBERT, specular)
+
 // The values of a surface that are the same for all lights.
 SHARED_PLAIN_STRUCT(ShadingPoint) {
     FV3 position;

@@ -8,7 +8,7 @@
 #include "kernels/device/lit_item.h"
 #include "kernels/device/radiance.h"
 #include "kernels/lists/coarse_tile.h"
-#include "kernels/tails/lobe_bound.h"
+#include "kernels/shared/evaluate.h"
 #include "kernels/tails/tail_moments.h"
 
 // sum of w max(n.l, 0) of one colour, at most.
@@ -20,7 +20,7 @@ static inline float irradiance_bound(global const float* m, FV3 n) {
                    2.0f * (n.x * n.y * outer[3] + n.x * n.z * outer[4] + n.y * n.z * outer[5]);
     float both = sqrt(m[TAIL_AIMED] * max(square, 0.0f));
     // Rounding may have changed the difference by as much as its terms.
-    return 0.5f * (both + along) + (ROUNDING - 1.0f) * m[TAIL_AIMED] + m[TAIL_STRAY];
+    return 0.5f * (both + along) + 1e-4f * m[TAIL_AIMED] + m[TAIL_STRAY];
 }
 
 kernel void tail_bound(GBUFFER_ARGS, ClusterGrid grid,
@@ -44,5 +44,5 @@ kernel void tail_bound(GBUFFER_ARGS, ClusterGrid grid,
     FV3 received = fv3(irradiance[0], irradiance[1], irradiance[2]);
     LightSum most =
         add_bounds(zero_sum(), s, p, 1.0f, 1.0f, received, received, fv3(all[0], all[1], all[2]));
-    store_radiance(bound, view, item.pixels, scale3(reflected_light(s, most), ROUNDING));
+    store_radiance(bound, view, item.pixels, bounded_light(s, most));
 }

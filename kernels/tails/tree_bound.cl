@@ -8,7 +8,7 @@
 // v.h moves by at most half as much as l: it is sqrt((1 + l.v) / 2).
 #include "kernels/device/lit_item.h"
 #include "kernels/device/radiance.h"
-#include "kernels/tails/lobe_bound.h"
+#include "kernels/shared/evaluate.h"
 #include "kernels/tails/tree_cut.h"
 
 // Errors of light of intensity 1 from a node.
@@ -83,7 +83,7 @@ kernel void tree_bound(LIT_ARGS,
                     add_bounds(most, s, p, e.cosine, e.fresnel, scale3(color, e.diffuse), all, all);
             }
         }
-        out = scale3(reflected_light(s, most), ROUNDING);
+        out = bounded_light(s, most);
     }
     store_radiance(bound, view, item.pixels, out);
 }
