@@ -232,7 +232,7 @@ SurfaceSamples decoded_surfaces(const LightingCase& input, const DeviceResult& r
     for_each_drawn(input, [&](uint x, uint y) {
         out.at(static_cast<int>(x), static_cast<int>(y)) = surface_sample(
             [&](std::size_t plane) { return result.planes.at(static_cast<uint>(plane), x, y); },
-            false, false);
+            false);
     });
     return out;
 }

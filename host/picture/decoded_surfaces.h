@@ -7,8 +7,8 @@
 #include "host/picture/frame.h"
 #include "host/picture/web_in_view.h"
 #include "kernels/shared/cluster_grid.h"
+#include "kernels/shared/gbuffer.h"
 #include "kernels/shared/light.h"
-#include "kernels/shared/surface_planes.h"
 #include "kernels/shared/view.h"
 
 namespace kilolux {
@@ -22,11 +22,10 @@ constexpr uint kBackground = ~0u;
 /// A decoded G-buffer on the host, with what is known of each pixel's lights.
 struct DecodedSurfaces {
     /// Bytes of a pixel at most, without planes that only some AOVs have: surface and counts.
-    static constexpr std::size_t kPixelBytes =
-        SURFACE_PLANES_WITH_SPECULAR * sizeof(float) + 2 * sizeof(uint);
+    static constexpr std::size_t kPixelBytes = SURFACE_PLANES * sizeof(float) + 2 * sizeof(uint);
 
     View view{};
-    std::vector<float> planes;    // [SURFACE_PLANES(_WITH_SPECULAR)][height][stride]
+    std::vector<float> planes;    // [SURFACE_PLANES][height][stride]
     std::vector<uint> evaluated;  // [height][stride] k: lights evaluated at the pixel; kBackground
     std::vector<uint> covering;   // [height][stride] k*: those that reach it; empty if not counted
     // [height][stride] with shadows: lights that the pixel faces within their range, and those of
@@ -39,8 +38,7 @@ struct DecodedSurfaces {
     std::vector<float> bound;
     std::vector<uint> taken;  // [height][stride] samples; empty where their number was given
     ClusterGrid grid{};
-    bool specular = false;  // whether there are planes of the dielectrics' reflectance
-    bool unlit = false;     // whether a roughness of 0 means an unlit surface
+    bool unlit = false;  // whether a roughness of 0 means an unlit surface
 
     /// A value of a plane, and of three planes from `plane` on, at an index within it.
     float at(std::size_t plane, std::size_t pixel) const {

@@ -83,7 +83,6 @@ void place_surfaces(DecodedSurfaces& whole, DecodedSurfaces&& band, int height) 
     whole.view.first_row = 0;
     whole.view.height = static_cast<uint>(height);
     whole.grid = band.grid;
-    whole.specular = band.specular;
     whole.unlit = band.unlit;
 }
 

@@ -8,8 +8,8 @@
 #include "host/picture/web_in_view.h"
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/clusters.h"
+#include "kernels/shared/gbuffer.h"
 #include "kernels/shared/light.h"
-#include "kernels/shared/surface_planes.h"
 
 namespace kilolux {
 
@@ -25,9 +25,8 @@ struct ProbedLight {
 /// What is known of one pixel and of the lists that light it.
 struct PixelProbe {
     // SURFACE_*: view space; depth 0: background
-    std::array<float, SURFACE_PLANES_WITH_SPECULAR> surface{};
-    bool specular = false;  // whether `surface` has the dielectric's reflectance
-    bool unlit = false;     // whether a roughness of 0 means an unlit surface
+    std::array<float, SURFACE_PLANES> surface{};
+    bool unlit = false;  // whether a roughness of 0 means an unlit surface
     ClusterGrid grid{};
     uint tile_x = 0, tile_y = 0, slice = 0;  // its coarse cluster
     uint coarse_count = 0;                   // lights in the coarse cluster's list

@@ -78,10 +78,9 @@ DecodedSurfaces BandReader::pixels(const LastSample& last) {
     DecodedSurfaces out;
     out.view = band.surfaces.view;
     out.grid = band.grid;
-    out.specular = context_.plan.gbuffer.specular;
     out.unlit = context_.plan.gbuffer.unlit;
     out.planes = download<float>(context_.gpu, decoder().enqueue(band.surfaces, untimed),
-                                 decoder().plane_count() * plane_size(band));
+                                 SURFACE_PLANES * plane_size(band));
     count_evaluated(last, out);
     return out;
 }
@@ -233,9 +232,8 @@ PixelProbe BandReader::surface_at(const LitBand& band, int x, int y) {
         static_cast<std::size_t>(y) * band.surfaces.view.stride + static_cast<std::size_t>(x);
     PixelProbe out;
     out.grid = grid;
-    out.specular = context_.plan.gbuffer.specular;
     out.unlit = context_.plan.gbuffer.unlit;
-    for (std::size_t i = 0; i < decoder().plane_count(); ++i) {
+    for (std::size_t i = 0; i < SURFACE_PLANES; ++i) {
         const std::size_t first = i * plane_size(band) + pixel;
         out.surface[i] = download<float>(context_.gpu, planes, 1, first).front();
     }

@@ -8,16 +8,11 @@
 #include "kernels/device/prefetch.h"
 #include "kernels/shared/evaluate.h"
 #include "kernels/shared/gbuffer.h"
+#include "kernels/shared/pack.h"
 #include "kernels/shared/view.h"
 
 #ifndef GBUFFER
 #define GBUFFER GBUFFER_PACKED
-#endif
-#ifndef HAS_MATERIAL
-#define HAS_MATERIAL 0
-#endif
-#ifndef HAS_OCCLUSION
-#define HAS_OCCLUSION 0
 #endif
 
 // The arguments by which a kernel reads a G-buffer.
@@ -52,9 +47,9 @@ static inline void prefetch_surface(GBuffer g, uint place) {
 #if HAS_MATERIAL
     prefetch_plane(g, PLANE_MATERIAL, place);
 #endif
-#if HAS_SPECULAR
-    prefetch_plane(g, PLANE_SPECULAR, place);
-#endif
+#define PREFETCH_PACKED(has, plane, pack, unpack) \
+    if (has != 0) prefetch_plane(g, plane, place);
+    PACKED_PLANES(PREFETCH_PACKED)
 #endif
 }
 
@@ -77,13 +72,6 @@ static inline FV srgb_to_linear(global const float* table, UV code) {
 static inline FV3 decode_srgb(global const float* table, UV rgba) {
     return fv3(srgb_to_linear(table, rgba & 255u), srgb_to_linear(table, (rgba >> 8) & 255u),
                srgb_to_linear(table, (rgba >> 16) & 255u));
-}
-
-static inline FV unorm8(UV code) { return lane_to_float(code) * (1.0f / 255.0f); }
-
-// [-1, 1] of a 16-bit UNORM.
-static inline FV snorm_of_unorm16(UV code) {
-    return fma(lane_to_float(code), fv(2.0f / 65535.0f), fv(-1.0f));
 }
 
 static inline FV3 rotate_to_view(View view, FV3 v) {
@@ -166,30 +154,12 @@ static inline FV3 load_normal(GBuffer g, Pixels pixels) {
 }
 
 static inline Surface load_float_material(GBuffer g, Pixels pixels, Surface s) {
-    s.albedo = load_float3(g, PLANE_ALBEDO_R, pixels);
-    s.roughness = load_float(g, PLANE_ROUGHNESS, pixels);
-#if HAS_MATERIAL
-    s.metallic = load_float(g, PLANE_METALLIC, pixels);
-    s.emissive = load_float3(g, PLANE_EMISSIVE_R, pixels);
-#endif
-#if HAS_OCCLUSION
-    s.occlusion = load_float(g, PLANE_OCCLUSION_F, pixels);
-#endif
-#if HAS_SPECULAR
-    s.specular = load_float3(g, PLANE_SPECULAR_R, pixels);
-    s.specular_f90 = load_float(g, PLANE_SPECULAR_F90, pixels);
-#endif
+#define LOAD_VECTOR(has, member, decoded, plane, value) \
+    if (has != 0) s.member = load_float3(g, plane, pixels);
+#define LOAD_SCALAR(has, member, decoded, plane, value) \
+    if (has != 0) s.member = load_float(g, plane, pixels);
+    SURFACE_VALUES(LOAD_VECTOR, LOAD_SCALAR)
     return s;
-}
-
-// Reflectance of a code, the square root in 255ths: 51 is DIELECTRIC_F0 exactly.
-static inline FV reflectance_of(UV code) {
-    FV root = lane_to_float(code);
-    return root * root * (1.0f / 65025.0f);
-}
-
-static inline FV3 unorm8_color(UV rgba) {
-    return fv3(unorm8(rgba & 255u), unorm8((rgba >> 8) & 255u), unorm8((rgba >> 16) & 255u));
 }
 
 #define CODE_AT(i, plane, pixels) ((uint)PLANE_AT(i, plane, pixels))
@@ -205,12 +175,9 @@ static inline Surface load_optional_planes(GBuffer g, Pixels pixels, Surface s) 
     global const uchar* plane = g.bytes + g.layout.offset_bytes[PLANE_OCCLUSION];
     s.occlusion = unorm8(LANES(UV, CODE_AT, plane, pixels));
 #endif
-#if HAS_SPECULAR
-    UV specular = load_uint(g, PLANE_SPECULAR, pixels);
-    s.specular = fv3(reflectance_of(specular & 255u), reflectance_of((specular >> 8) & 255u),
-                     reflectance_of((specular >> 16) & 255u));
-    s.specular_f90 = unorm8(specular >> 24);
-#endif
+#define LOAD_PACKED(has, plane, pack, unpack) \
+    if (has != 0) s = unpack(load_uint(g, plane, pixels), s);
+    PACKED_PLANES(LOAD_PACKED)
     return s;
 }
 
@@ -239,12 +206,9 @@ static inline Surface load_row_material(GBuffer g, Pixels pixels, Surface s) {
 
 // The surfaces of pixels at depths z [m].
 static inline Surface load_surface(GBuffer g, Pixels pixels, FV z) {
-    Surface s;
+    Surface s = plain_surface();
     s.position = load_position(g, pixels, z);
     s.normal = load_normal(g, pixels);
-    s.metallic = fv(0.0f);
-    s.occlusion = fv(1.0f);
-    s.emissive = zero3();
 #if GBUFFER == GBUFFER_FULL
     return load_float_material(g, pixels, s);
 #elif GBUFFER == GBUFFER_OCT_2X4

@@ -13,15 +13,19 @@
 #endif
 
 #if HALF_LIGHT_COLORS
+#if HAS_SPOT_LIGHTS
+#define STORED_ROWS AIMED_ROWS
+#else
+#define STORED_ROWS(ROW)
+#endif
+
 // The colour is divided by a power of two, so that no intensity overflows. 32 bytes instead of 48
 // without spot lights.
 typedef struct StoredLight {
     float4 position_inv_range2;
     // xy: half4 of the colour / z; z: that power of two; w: 1/(cos_in - cos_out)
     uint4 color_scale;
-#if HAS_SPOT_LIGHTS
-    float4 axis_cos;
-#endif
+    STORED_ROWS(LIGHT_ROW)
 } StoredLight;
 
 static inline ShadeLight load_light(global const StoredLight* stored) {
@@ -30,10 +34,19 @@ static inline ShadeLight load_light(global const StoredLight* stored) {
     light.color_scale =
         vload_half4(0, (global const half*)&stored->color_scale) * as_float(stored->color_scale.z);
     light.color_scale.w = as_float(stored->color_scale.w);
-#if HAS_SPOT_LIGHTS
-    light.axis_cos = stored->axis_cos;
-#endif
+#define LOAD_ROW(member) light.member = stored->member;
+    STORED_ROWS(LOAD_ROW)
     return light;
+}
+
+static inline void store_half_light(global StoredLight* stored, ShadeLight light) {
+    float4 c = light.color_scale;
+    float unit = ldexp(1.0f, clamp(ilogb(max(c.x, max(c.y, c.z))), -126, 126));
+    stored->position_inv_range2 = light.position_inv_range2;
+    stored->color_scale.zw = as_uint2((float2)(unit, c.w));
+    vstore_half4_rte((float4)(c.xyz / unit, 0.0f), 0, (global half*)&stored->color_scale);
+#define STORE_ROW(member) stored->member = light.member;
+    STORED_ROWS(STORE_ROW)
 }
 #define LIGHT_AT(lights, i) load_light((lights) + (i))
 #else

@@ -82,8 +82,8 @@ static inline LightSet light_set(global const StoredLight* lights,
 }
 
 static inline LightSum select_sum(MASK mask, LightSum a, LightSum b) {
-    a.diffuse = select3(mask, a.diffuse, b.diffuse);
-    a.specular = select3(mask, a.specular, b.specular);
+#define SELECT_TERM(has, term) a.term = select3(mask, a.term, b.term);
+    LIGHT_TERMS(SELECT_TERM)
     return a;
 }
 

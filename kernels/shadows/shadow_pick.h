@@ -22,10 +22,10 @@
 
 // The inputs by which a work-item's pixels pick lights.
 typedef struct ShadowPick {
-    Surface surface;  // without its own light
-    FV whole;         // luminance of the radiance if all lights are seen
-    float rays;       // n
-    uint tile;        // a hash of the fine tile of the picture, and the seed
+    Surface surface;
+    FV whole;    // luminance of the radiance if all lights are seen
+    float rays;  // n
+    uint tile;   // a hash of the fine tile of the picture, and the seed
 } ShadowPick;
 
 // SAMPLE_ARGS.
@@ -41,7 +41,6 @@ static inline ShadowPick make_pick(Surface s, ShadowSamples samples, View view, 
                                    ItemPlace at) {
     ShadowPick out;
     out.surface = s;
-    out.surface.emissive = zero3();
     out.whole = luminance(load_radiance(samples.whole, view, pixels));
     out.rays = samples.rays;
     uint tile_y = (at.y + view.first_row) / FINE_TILE;
@@ -51,7 +50,7 @@ static inline ShadowPick make_pick(Surface s, ShadowSamples samples, View view, 
 
 // |f| of a light whose sum alone is `one`.
 static inline FV light_alone(ShadowPick pick, LightSum one) {
-    return luminance(finish_shading(pick.surface, one, 0.0f));
+    return luminance(reflected_light(pick.surface, one));
 }
 
 static inline FV pick_probability(ShadowPick pick, FV light) {
@@ -68,17 +67,12 @@ static inline MASK picks_light(ShadowPick pick, FV alone, uint light) {
 // Adds a picked, hidden light to the light that the estimate takes away. `one`: the light's sum
 // alone.
 static inline LightSum add_hidden(LightSum sum, LightSum one, FV probability, MASK hidden) {
-    FV weight = lane_select(hidden, fv(1.0f) / probability, fv(0.0f));
-    sum.diffuse = add3(sum.diffuse, scale3(one.diffuse, weight));
-#if SHADING != SHADING_LAMBERT
-    sum.specular = add3(sum.specular, scale3(one.specular, weight));
-#endif
-    return sum;
+    return add_weighted(sum, lane_select(hidden, fv(1.0f) / probability, fv(0.0f)), one);
 }
 
 // The estimate: the radiance if all lights are seen without that of the sum `hidden`.
 static inline FV3 without_hidden(ShadowPick pick, FV3 whole, LightSum hidden) {
-    return sub3(whole, finish_shading(pick.surface, hidden, 0.0f));
+    return sub3(whole, reflected_light(pick.surface, hidden));
 }
 
 // The term of a picked, hidden light in the estimated variance of the luminance.

@@ -193,8 +193,8 @@ SHARED_FN LightSum evaluate_directional(LightSum sum, ShadingPoint p, Directiona
 #endif
 }
 
-// Radiance of the surface from the sums over its lights.
-SHARED_FN FV3 finish_shading(Surface s, LightSum sum, float ambient) {
+// Radiance that the surface reflects, from the sums over its lights.
+SHARED_FN FV3 reflected_light(Surface s, LightSum sum) {
     FV3 albedo = s.albedo;
     FV k = fv(INV_PI);
     FV3 out_radiance;
@@ -230,10 +230,44 @@ SHARED_FN FV3 finish_shading(Surface s, LightSum sum, float ambient) {
         fv3(lane_select(lit, out_radiance.x, fv(0.0f)), lane_select(lit, out_radiance.y, fv(0.0f)),
             lane_select(lit, out_radiance.z, fv(0.0f)));
 #endif
+    return out_radiance;
+}
+
+// Adds to a bound of sums light from directions with n.h <= `cosine` and Schlick's rise <=
+// `fresnel`. `diffuse`: what the diffuse term gets at most; `all`: the sum of intensity /
+// distance^2; `irradiance`: the same times n.l.
+SHARED_FN LightSum add_bounds(LightSum sum, Surface s, ShadingPoint p, FV cosine, FV fresnel,
+                              FV3 diffuse, FV3 irradiance, FV3 all) {
+    sum.diffuse = add3(sum.diffuse, diffuse);
+#if SHADING == SHADING_PBR
+    FV one = fv(1.0f);
+    // D V n.l without 1 / (2 pi): V n.l <= 1 / (2 smith_v).
+    FV ggx = fma(one - cosine * cosine, p.ggx_slope, p.ggx_floor);
+    FV peak = one / (ggx * ggx * p.smith_v);
+    FV3 f0 = mixed_f0(s, dielectric_f0(s));
+    FV3 most = fv3(min(f0.x + fresnel, one), min(f0.y + fresnel, one), min(f0.z + fresnel, one));
+    sum.specular =
+        fv3(fma(most.x, peak * all.x, sum.specular.x), fma(most.y, peak * all.y, sum.specular.y),
+            fma(most.z, peak * all.z, sum.specular.z));
+#elif SHADING == SHADING_BLINN_PHONG
+    FV cos2 = cosine * cosine;
+    FV peak = pow_of_cos2(cos2, fv(1.0f) - cos2, fv(1.0f), p.exponent);
+    sum.specular = add3(sum.specular, scale3(irradiance, peak));
+#endif
+    return sum;
+}
+
+// Radiance that the surface reflects at most, from bounds of the sums.
+SHARED_FN FV3 bounded_light(Surface s, LightSum most) {
+    return scale3(reflected_light(s, most), fv(1.0001f));  // more than the sums' rounding
+}
+
+// Radiance of the surface, from the sums over its lights.
+SHARED_FN FV3 finish_shading(Surface s, LightSum sum, float ambient) {
+    FV3 lit = reflected_light(s, sum);
     FV a = s.occlusion * fv(ambient);
-    return fv3(fma(a, albedo.x, out_radiance.x) + s.emissive.x,
-               fma(a, albedo.y, out_radiance.y) + s.emissive.y,
-               fma(a, albedo.z, out_radiance.z) + s.emissive.z);
+    return fv3(fma(a, s.albedo.x, lit.x) + s.emissive.x, fma(a, s.albedo.y, lit.y) + s.emissive.y,
+               fma(a, s.albedo.z, lit.z) + s.emissive.z);
 }
 
 #if defined(__cplusplus)

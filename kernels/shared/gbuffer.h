@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// G-buffer layouts: their planes, the content of planes, and the packing of normals.
+// G-buffer layouts: their planes, the content of planes, the values of a surface, and the packing
+// of normals.
 #ifndef KILOLUX_SHARED_GBUFFER_H
 #define KILOLUX_SHARED_GBUFFER_H
 #include "kernels/shared/types.h"
@@ -78,7 +79,34 @@ namespace kilolux {
 #define PLANE_COUNT 27
 #define PLANE_ABSENT 0xffffffffu
 
-#if !defined(GL_core_profile)  // GLSL writes attachments, and `layout` is a word of its own
+// The values of a surface beside its position and normal, a row each. VECTOR, SCALAR(has, member,
+// decoded, plane, value): whether the scene's G-buffers hold it; its member of Surface and of the
+// references' SurfaceSample; its first plane of a decoded G-buffer and of the layout `full`; its
+// value where the G-buffer does not hold it.
+#define SURFACE_VALUES(VECTOR, SCALAR)                                                         \
+    VECTOR(1, albedo, SURFACE_ALBEDO, PLANE_ALBEDO_R, 0.0f)        /* base colour, Rec. 709 */ \
+    SCALAR(1, roughness, SURFACE_ROUGHNESS, PLANE_ROUGHNESS, 1.0f) /* perceptual */            \
+    SCALAR(HAS_MATERIAL, metallic, SURFACE_METALLIC, PLANE_METALLIC, 0.0f)                     \
+    VECTOR(HAS_MATERIAL, emissive, SURFACE_EMISSIVE, PLANE_EMISSIVE_R, 0.0f) /* radiance */    \
+    SCALAR(HAS_OCCLUSION, occlusion, SURFACE_OCCLUSION, PLANE_OCCLUSION_F, 1.0f)               \
+    /* reflectance of the dielectric part head on, and at grazing angles */                    \
+    VECTOR(HAS_SPECULAR, specular, SURFACE_SPECULAR, PLANE_SPECULAR_R, DIELECTRIC_F0)          \
+    SCALAR(HAS_SPECULAR, specular_f90, SURFACE_SPECULAR_F90, PLANE_SPECULAR_F90, 1.0f)
+// Reflectance of dielectrics at normal incidence (glTF 2.0, appendix B).
+#define DIELECTRIC_F0 0.04f
+
+// GLSL has no enums and writes attachments; `layout` is a word of its own there.
+#if !defined(GL_core_profile)
+// Float planes of a decoded G-buffer.
+#define THREE_PLANES(has, member, decoded, plane, value) decoded, decoded##_Y, decoded##_Z,
+#define ONE_PLANE(has, member, decoded, plane, value) decoded,
+enum SurfacePlane {
+    SURFACE_DEPTH,                                   // z [m], > 0 in front; 0 for background
+    THREE_PLANES(1, position, SURFACE_POSITION, , )  // view space [m]
+    THREE_PLANES(1, normal, SURFACE_NORMAL, , )      // view space, unit
+    SURFACE_VALUES(THREE_PLANES, ONE_PLANE) SURFACE_PLANES
+};
+
 SHARED_STRUCT(GBufferLayout) {
     uint offset_bytes[PLANE_COUNT];  // of each plane in the buffer, a multiple of 256; PLANE_ABSENT
                                      // if not there

@@ -14,13 +14,18 @@
 namespace kilolux {
 #endif
 
+// Rows of a light beside its position and colour: ROW(member), whose xyz is a direction and whose w
+// is a number.
+#define AIMED_ROWS(ROW) ROW(axis_cos)
+#define LIGHT_ROW(member) float4 member;
+
 // A point or spot light, camera-relative: world axes, camera at the origin.
 SHARED_STRUCT(Light) {
     // xyz: position - camera [m]; w: range [m], negative unless has_own_range()
     float4 position_range;
     float4 color_scale;  // xyz: luminous intensity, linear Rec. 709 [cd]; w: 1/(cos_in - cos_out)
-    float4
-        axis_cos;  // xyz: unit spot axis (0 for a point light); w: cos_out (-1 for a point light)
+    // axis_cos: unit spot axis (0 for a point light) and cos_out (-1 for a point light)
+    AIMED_ROWS(LIGHT_ROW)
 };
 SHARED_ASSERT(light_size, sizeof(Light) == 48);
 
@@ -38,8 +43,8 @@ SHARED_ASSERT(world_light_size, sizeof(WorldLight) == 64);
 SHARED_STRUCT(ShadeLight) {
     // xyz: p_view [m]; w: 1/range^2 [1/m^2], negative if has_random_range()
     float4 position_inv_range2;
-    float4 color_scale;  // as Light
-    float4 axis_cos;     // as Light, axis in view space
+    float4 color_scale;    // as Light
+    AIMED_ROWS(LIGHT_ROW)  // as Light, in view space
 };
 SHARED_ASSERT(shade_light_size, sizeof(ShadeLight) == 48);
 

@@ -15,25 +15,31 @@
 namespace kilolux {
 #endif
 
+#define TERM_MEMBER(has, term) FV3 term;
 // Sums over lights of intensity * falloff * n.l, weighted as each term of the BRDF needs.
-SHARED_PLAIN_STRUCT(LightSum) {
-    FV3 diffuse;
-    FV3 specular;
+SHARED_PLAIN_STRUCT(LightSum){
+    LIGHT_TERMS(TERM_MEMBER)  // linear Rec. 709
 };
 
 SHARED_FN LightSum zero_sum() {
     LightSum sum;
-    sum.diffuse = zero3();
-    sum.specular = zero3();
+#define ZERO_TERM(has, term) sum.term = zero3();
+    LIGHT_TERMS(ZERO_TERM)
     return sum;
 }
 
 SHARED_FN LightSum add_sums(LightSum a, LightSum b) {
-    a.diffuse = add3(a.diffuse, b.diffuse);
-#if SHADING != SHADING_LAMBERT
-    a.specular = add3(a.specular, b.specular);
-#endif
+#define ADD_TERM(has, term) \
+    if (has) a.term = add3(a.term, b.term);
+    LIGHT_TERMS(ADD_TERM)
     return a;
+}
+
+SHARED_FN LightSum add_weighted(LightSum sum, FV weight, LightSum b) {
+#define ADD_WEIGHTED_TERM(has, term) \
+    if (has) sum.term = add3(sum.term, scale3(b.term, weight));
+    LIGHT_TERMS(ADD_WEIGHTED_TERM)
+    return sum;
 }
 
 SHARED_FN FV3 add_scaled(FV3 sum, FV weight, float4 color) {

@@ -51,7 +51,8 @@ SHARED_FN ShadeLight shade_light(View view, Light light, uint index, uint seed) 
     local_light.position_inv_range2 =
         rotated(view, light.position_range, chosen_inv_range2(light, index, seed));
     local_light.color_scale = light.color_scale;
-    local_light.axis_cos = rotated(view, light.axis_cos, light.axis_cos.w);
+#define TURN_ROW(member) local_light.member = rotated(view, light.member, light.member.w);
+    AIMED_ROWS(TURN_ROW)
     return local_light;
 }
 

@@ -11,28 +11,12 @@
 #ifndef KILOLUX_SHARED_STORE_H
 #define KILOLUX_SHARED_STORE_H
 #include "kernels/shared/gbuffer.h"
+#include "kernels/shared/pack.h"
 #include "kernels/shared/surface.h"
 #include "kernels/shared/view.h"
 
-// The code of v in [0, 1], rounded.
-SHARED_FN UV unorm_code(FV v, float largest) {
-    return lane_to_uint(fma(min(max(v, fv(0.0f)), fv(1.0f)), fv(largest), fv(0.5f)));
-}
-
-SHARED_FN UV pack_color(UV r, UV g, UV b, UV a) { return r | (g << 8) | (b << 16) | (a << 24); }
-
-SHARED_FN UV pack_linear(FV3 c, UV a) {
-    return pack_color(unorm_code(c.x, 255.0f), unorm_code(c.y, 255.0f), unorm_code(c.z, 255.0f), a);
-}
-
 SHARED_FN UV pack_srgb(GBufferTarget to, FV3 c, UV a) {
     return pack_color(encode_srgb(to, c.x), encode_srgb(to, c.y), encode_srgb(to, c.z), a);
-}
-
-// Two coordinates in [-1, 1] as 16 bits each.
-SHARED_FN UV pack_normal(FV x, FV y) {
-    return unorm_code(fma(x, fv(0.5f), fv(0.5f)), 65535.0f) |
-           (unorm_code(fma(y, fv(0.5f), fv(0.5f)), 65535.0f) << 16);
 }
 
 SHARED_FN void store_plane_float3(GBufferTarget to, uint first_plane, FV3 value) {
@@ -50,29 +34,20 @@ SHARED_FN void store_optional_planes(GBufferTarget to, Surface s) {
 #if HAS_OCCLUSION
     store_plane_byte(to, PLANE_OCCLUSION, unorm_code(s.occlusion, 255.0f));
 #endif
-#if HAS_SPECULAR
-    FV3 root = fv3(lane_sqrt(s.specular.x), lane_sqrt(s.specular.y), lane_sqrt(s.specular.z));
-    store_plane_uint(to, PLANE_SPECULAR, pack_linear(root, unorm_code(s.specular_f90, 255.0f)));
-#endif
+#define STORE_PACKED(has, plane, pack, unpack) \
+    if (has != 0) store_plane_uint(to, plane, pack(s));
+    PACKED_PLANES(STORE_PACKED)
 }
 
 #if GBUFFER == GBUFFER_FULL
 SHARED_FN void store_layout(GBufferTarget to, Surface s) {
     store_plane_float3(to, PLANE_POSITION_X, s.position);
     store_plane_float3(to, PLANE_NORMAL_X, s.normal);
-    store_plane_float3(to, PLANE_ALBEDO_R, s.albedo);
-    store_plane_float(to, PLANE_ROUGHNESS, s.roughness);
-#if HAS_MATERIAL
-    store_plane_float(to, PLANE_METALLIC, s.metallic);
-    store_plane_float3(to, PLANE_EMISSIVE_R, s.emissive);
-#endif
-#if HAS_OCCLUSION
-    store_plane_float(to, PLANE_OCCLUSION_F, s.occlusion);
-#endif
-#if HAS_SPECULAR
-    store_plane_float3(to, PLANE_SPECULAR_R, s.specular);
-    store_plane_float(to, PLANE_SPECULAR_F90, s.specular_f90);
-#endif
+#define STORE_VECTOR(has, member, decoded, plane, value) \
+    if (has != 0) store_plane_float3(to, plane, s.member);
+#define STORE_SCALAR(has, member, decoded, plane, value) \
+    if (has != 0) store_plane_float(to, plane, s.member);
+    SURFACE_VALUES(STORE_VECTOR, STORE_SCALAR)
 }
 #elif GBUFFER == GBUFFER_HALF
 // Stores a vector in world axes, from the world's origin on, as half floats, finite.

@@ -16,6 +16,12 @@
 #ifndef HAS_SPOT_LIGHTS
 #define HAS_SPOT_LIGHTS 0
 #endif
+#ifndef HAS_MATERIAL
+#define HAS_MATERIAL 0
+#endif
+#ifndef HAS_OCCLUSION
+#define HAS_OCCLUSION 0
+#endif
 #ifndef HAS_METALLIC
 #define HAS_METALLIC 0
 #endif
@@ -31,8 +37,6 @@
 // Perceptual roughness below which a lobe is too narrow for float32 and 2x16 normals (Filament's
 // limit).
 #define ROUGHNESS_MIN 0.045f
-// Reflectance of dielectrics at normal incidence (glTF 2.0, appendix B).
-#define DIELECTRIC_F0 0.04f
 // Smallest cosine of the angle between normal and eye (Filament, MIN_N_DOT_V).
 #define N_DOT_V_MIN 1e-4f
 
@@ -42,23 +46,32 @@ namespace kilolux {
 
 SHARED_FN FV3 zero3() { return fv3(fv(0.0f), fv(0.0f), fv(0.0f)); }
 
+#define MEMBER_VECTOR(has, member, decoded, plane, value) FV3 member;
+#define MEMBER_SCALAR(has, member, decoded, plane, value) FV member;
 // A point on a surface, in view space.
 SHARED_PLAIN_STRUCT(Surface) {
     FV3 position;  // [m]
     FV3 normal;    // unit
-    FV3 albedo;    // base colour, linear Rec. 709
-    FV3 emissive;  // radiance
-    FV roughness;  // perceptual
-    FV metallic;
-    FV occlusion;
-#if HAS_SPECULAR
-    FV3 specular;     // reflectance of the dielectric part head on
-    FV specular_f90;  // and at grazing angles
-#endif
+    SURFACE_VALUES(MEMBER_VECTOR, MEMBER_SCALAR)
 };
+
+// A surface at the eye, turned to it, with the values of those that a G-buffer does not hold.
+SHARED_FN Surface plain_surface() {
+    Surface s;
+    s.position = zero3();
+    s.normal = fv3(fv(0.0f), fv(0.0f), fv(1.0f));
+#define PLAIN_VECTOR(has, member, decoded, plane, value) \
+    s.member = fv3(fv(value), fv(value), fv(value));
+#define PLAIN_SCALAR(has, member, decoded, plane, value) s.member = fv(value);
+    SURFACE_VALUES(PLAIN_VECTOR, PLAIN_SCALAR)
+    return s;
+}
 
 // Unlit surfaces send their emissive light alone.
 SHARED_FN MASK is_lit(Surface s) { return s.roughness > fv(UNLIT_ROUGHNESS); }
+
+// The terms of a BRDF that have sums of their own. TERM(has, member): whether the model has it.
+#define LIGHT_TERMS(TERM) TERM(true, diffuse) TERM(SHADING != SHADING_LAMBERT, specular)
 
 // The values of a surface that are the same for all lights.
 SHARED_PLAIN_STRUCT(ShadingPoint) {

@@ -197,23 +197,10 @@ SHARED_FN Surface with_unlit(MaterialRef material, Surface s) {
     return s;
 }
 
-SHARED_FN Surface background_surface() {
-    Surface s;
-    s.position = s.albedo = s.emissive = zero3();
-    s.normal = fv3(fv(0.0f), fv(0.0f), fv(1.0f));
-    s.roughness = s.metallic = s.occlusion = fv(0.0f);
-#if HAS_SPECULAR
-    s.specular = zero3();
-    s.specular_f90 = fv(0.0f);
-#endif
-    return s;
-}
-
 // The surface of the textures' material at the fragments; its position is not set.
 SHARED_FN Surface surface_of_material(IN(Textures) textures, IN(Fragment) f) {
     MaterialRef material = AT(textures).material;
-    Surface s;
-    s.position = zero3();
+    Surface s = plain_surface();
     s.normal = shading_normal(textures, f);
     s.albedo = color_of(MATERIAL(material).row.base_color);
 #if HAS_USE(USE_BASE_COLOR)
@@ -226,7 +213,6 @@ SHARED_FN Surface surface_of_material(IN(Textures) textures, IN(Fragment) f) {
     s.emissive = color_of(MATERIAL(material).row.emissive_cutoff);
     s.metallic = fv(MATERIAL(material).row.factors.x);
     s.roughness = fv(MATERIAL(material).row.factors.y);
-    s.occlusion = fv(1.0f);
 #if HAS_USE(USE_METALLIC_ROUGHNESS)
     FV4 maps = sample_use(textures, f, USE_METALLIC_ROUGHNESS);
     s.metallic *= maps.z;
@@ -251,15 +237,11 @@ SHARED_FN Surface surface_of_material(IN(Textures) textures, IN(Fragment) f) {
 SHARED_FN Surface take_surface(MASK mask, Surface a, Surface b) {
     a.position = select3(mask, a.position, b.position);
     a.normal = select3(mask, a.normal, b.normal);
-    a.albedo = select3(mask, a.albedo, b.albedo);
-    a.emissive = select3(mask, a.emissive, b.emissive);
-    a.roughness = lane_select(mask, a.roughness, b.roughness);
-    a.metallic = lane_select(mask, a.metallic, b.metallic);
-    a.occlusion = lane_select(mask, a.occlusion, b.occlusion);
-#if HAS_SPECULAR
-    a.specular = select3(mask, a.specular, b.specular);
-    a.specular_f90 = lane_select(mask, a.specular_f90, b.specular_f90);
-#endif
+#define TAKE_VECTOR(has, member, decoded, plane, value) \
+    a.member = select3(mask, a.member, b.member);
+#define TAKE_SCALAR(has, member, decoded, plane, value) \
+    a.member = lane_select(mask, a.member, b.member);
+    SURFACE_VALUES(TAKE_VECTOR, TAKE_SCALAR)
     return a;
 }
 #endif

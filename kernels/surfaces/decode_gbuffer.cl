@@ -2,7 +2,7 @@
 // The G-buffer as shading sees it, in float planes: for AOVs, views and the float64 references.
 // One work-item decodes VW neighbouring pixels of a row.
 #include "kernels/device/lit_item.h"
-#include "kernels/shared/surface_planes.h"
+#include "kernels/shared/gbuffer.h"
 
 // Where the decoded pixels go.
 typedef struct SurfacePlanes {
@@ -24,7 +24,7 @@ static inline void store_vector(SurfacePlanes to, uint first_plane, FV3 value) {
 }
 
 kernel void decode_gbuffer(GBUFFER_ARGS,
-                           // out [SURFACE_PLANES(_WITH_SPECULAR)][height][stride]; 0 for background
+                           // out [SURFACE_PLANES][height][stride]; 0 for background
                            global float* restrict planes) {
     BEGIN_ROW;
     SurfacePlanes to = {planes, view.stride * view.height, item.pixels.first, item.shown};
@@ -32,13 +32,7 @@ kernel void decode_gbuffer(GBUFFER_ARGS,
     store_scalar(to, SURFACE_DEPTH, item.z);
     store_vector(to, SURFACE_POSITION, s.position);
     store_vector(to, SURFACE_NORMAL, s.normal);
-    store_vector(to, SURFACE_ALBEDO, s.albedo);
-    store_scalar(to, SURFACE_ROUGHNESS, s.roughness);
-    store_scalar(to, SURFACE_METALLIC, s.metallic);
-    store_vector(to, SURFACE_EMISSIVE, s.emissive);
-    store_scalar(to, SURFACE_OCCLUSION, s.occlusion);
-#if HAS_SPECULAR
-    store_vector(to, SURFACE_SPECULAR, s.specular);
-    store_scalar(to, SURFACE_SPECULAR_F90, s.specular_f90);
-#endif
+#define DECODE_VECTOR(has, member, decoded, plane, value) store_vector(to, decoded, s.member);
+#define DECODE_SCALAR(has, member, decoded, plane, value) store_scalar(to, decoded, s.member);
+    SURFACE_VALUES(DECODE_VECTOR, DECODE_SCALAR)
 }

@@ -11,9 +11,6 @@
 #include "kernels/shared/evaluate.h"
 #include "kernels/tails/tail_moments.h"
 
-// More than the rounding of the sums of moments.
-#define ROUNDING 1.0001f
-
 // sum of w max(n.l, 0) of one colour, at most.
 static inline float irradiance_bound(global const float* m, FV3 n) {
     global const float* to = m + TAIL_TO;
@@ -23,28 +20,7 @@ static inline float irradiance_bound(global const float* m, FV3 n) {
                    2.0f * (n.x * n.y * outer[3] + n.x * n.z * outer[4] + n.y * n.z * outer[5]);
     float both = sqrt(m[TAIL_AIMED] * max(square, 0.0f));
     // Rounding may have changed the difference by as much as its terms.
-    return 0.5f * (both + along) + (ROUNDING - 1.0f) * m[TAIL_AIMED] + m[TAIL_STRAY];
-}
-
-// An upper bound of the radiance of one colour from light of which `all` is the sum of weights and
-// `irradiance` the part that the surface receives; `f0` head on: of dielectrics, or mixed.
-static inline float radiance_bound(Surface s, ShadingPoint p, float albedo, float f0, float all,
-                                   float irradiance) {
-#if SHADING == SHADING_LAMBERT
-    return albedo * INV_PI * irradiance;
-#else
-    float base = albedo;
-#if HAS_METALLIC
-    base *= 1.0f - s.metallic;
-#endif
-#if SHADING == SHADING_BLINN_PHONG
-    float alpha = clamped_alpha(s.roughness);
-    return (base * INV_PI + f0 * 0.25f * INV_PI / (alpha * alpha)) * irradiance;
-#else
-    // GGX: D <= 1 / (pi alpha^2), n.l V <= 1 / (2 sqrt(n.v^2 (1 - alpha^2) + alpha^2)), F <= 1.
-    return base * INV_PI * irradiance + 0.5f * INV_PI / (p.alpha2 * p.smith_v) * all;
-#endif
-#endif
+    return 0.5f * (both + along) + 1e-4f * m[TAIL_AIMED] + m[TAIL_STRAY];
 }
 
 kernel void tail_bound(GBUFFER_ARGS, ClusterGrid grid,
@@ -60,17 +36,13 @@ kernel void tail_bound(GBUFFER_ARGS, ClusterGrid grid,
     CoarseTile tile = coarse_tile(view, grid, at.tile);
     uint cluster = cluster_index(grid, tile.column, tile.row, slice_of_depth(grid, item.z));
     global const float* m = moments + cluster * TAIL_ROWS;
-    FV3 f0 = mixed_f0(s, dielectric_f0(s));
-    const float albedo[3] = {s.albedo.x, s.albedo.y, s.albedo.z};
-    const float f0_of[3] = {f0.x, f0.y, f0.z};
-    float out[3];
+    float irradiance[3], all[3];
     for (uint c = 0; c < 3; ++c) {
-        global const float* sums = m + c * TAIL_MOMENTS;
-        float irradiance = irradiance_bound(sums, s.normal);
-        out[c] = ROUNDING * radiance_bound(s, p, albedo[c], f0_of[c], sums[TAIL_ALL], irradiance);
-#if HAS_UNLIT
-        if (!is_lit(s)) out[c] = 0.0f;
-#endif
+        irradiance[c] = irradiance_bound(m + c * TAIL_MOMENTS, s.normal);
+        all[c] = m[c * TAIL_MOMENTS + TAIL_ALL];
     }
-    store_radiance(bound, view, item.pixels, fv3(out[0], out[1], out[2]));
+    FV3 received = fv3(irradiance[0], irradiance[1], irradiance[2]);
+    LightSum most =
+        add_bounds(zero_sum(), s, p, 1.0f, 1.0f, received, received, fv3(all[0], all[1], all[2]));
+    store_radiance(bound, view, item.pixels, bounded_light(s, most));
 }

@@ -17,13 +17,13 @@ layout(binding = CLUSTER_OFFSETS_UNIT) uniform usamplerBuffer cluster_offsets;
 layout(binding = LIGHT_LISTS_UNIT) uniform usamplerBuffer light_lists;
 
 ShadeLight light_at(uint light) {
-    int row = 3 * int(light);
+#define COUNT_ROW(member) +1
+    int row = (2 AIMED_ROWS(COUNT_ROW)) * int(light);
     ShadeLight read;
-    read.position_inv_range2 = texelFetch(lights, row);
-    read.color_scale = texelFetch(lights, row + 1);
-#if HAS_SPOT_LIGHTS
-    read.axis_cos = texelFetch(lights, row + 2);
-#endif
+#define READ_ROW(member) read.member = texelFetch(lights, row++);
+    READ_ROW(position_inv_range2)
+    READ_ROW(color_scale)
+    AIMED_ROWS(READ_ROW)
     return read;
 }
 uint cluster_offset(uint cluster) { return texelFetch(cluster_offsets, int(cluster)).x; }

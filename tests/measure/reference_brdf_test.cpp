@@ -17,6 +17,7 @@ SurfaceSample surface(double roughness, double metallic, glm::dvec3 albedo = {0.
     s.albedo = albedo;
     s.roughness = roughness;
     s.metallic = metallic;
+    s.specular = glm::dvec3(0.04);  // the default is a float
     s.kind = SurfaceKind::lit;
     return s;
 }

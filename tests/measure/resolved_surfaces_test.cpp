@@ -53,7 +53,7 @@ class Resolving {
         DecodedSurfaces decoded;
         decoded.view = view;
         decoded.planes = download<float>(gpu, decode.enqueue(gbuffer, timer),
-                                         std::size_t{decode.plane_count()} * count);
+                                         std::size_t{SURFACE_PLANES} * count);
         SurfaceSamples out = surface_samples(decoded);
         name_triangles(ids, view, out);
         return out;

@@ -12,65 +12,43 @@ namespace {
 constexpr std::array<std::string_view, 5> kNames = {"packed", "full", "half", "normal-xy",
                                                     "oct-2x4"};
 
-bool is_material_plane(uint plane) {
-    return plane == PLANE_MATERIAL || (plane >= PLANE_METALLIC && plane <= PLANE_EMISSIVE_B);
-}
+using N = GBufferNeeds;
 
-bool is_occlusion_plane(uint plane) {
-    return plane == PLANE_OCCLUSION || plane == PLANE_OCCLUSION_F;
-}
+// The planes after the former row's up to `last`, with elements of the same size.
+struct PlaneRow {
+    uint last;                   // PLANE_*
+    std::array<uint, 5> bytes;   // of an element by layout; 0: the layout has none
+    bool N::*feature = nullptr;  // without which they are left out
+};
 
-bool is_specular_plane(uint plane) {
-    return plane >= PLANE_SPECULAR && plane <= PLANE_SPECULAR_F90;
+constexpr PlaneRow kPlanes[] = {
+    // packed, full, half, normal-xy, oct-2x4
+    {PLANE_DEPTH, {4, 4, 4, 4, 4}},
+    {PLANE_NORMAL, {4, 0, 0, 4, 0}},
+    {PLANE_ALBEDO, {4, 0, 4, 4, 0}},
+    {PLANE_MATERIAL, {4, 0, 4, 4, 4}, &N::material},
+    {PLANE_OCCLUSION, {1, 0, 1, 1, 1}, &N::occlusion},
+    {PLANE_NORMAL_Z, {0, 4, 2, 0, 0}},
+    {PLANE_ROUGHNESS, {0, 4, 0, 0, 0}},
+    {PLANE_EMISSIVE_B, {0, 4, 0, 0, 0}, &N::material},
+    {PLANE_OCCLUSION_F, {0, 4, 0, 0, 0}, &N::occlusion},
+    {PLANE_ROW_1, {0, 0, 0, 0, 16}},
+    {PLANE_SPECULAR, {4, 0, 4, 4, 4}, &N::specular},
+    {PLANE_SPECULAR_F90, {0, 4, 0, 0, 0}, &N::specular},
+};
+
+const PlaneRow& row_of(uint plane) {
+    return *std::ranges::find_if(kPlanes, [&](const PlaneRow& row) { return plane <= row.last; });
 }
 
 bool has_plane(const GBufferNeeds& needs, uint plane) {
-    if (is_material_plane(plane) && !needs.material) return false;
-    if (is_occlusion_plane(plane) && !needs.occlusion) return false;
-    if (is_specular_plane(plane) && !needs.specular) return false;
-    return plane_element_bytes(needs.layout, plane) > 0;
-}
-
-// Bytes of the element of a plane of the float32 layout, by component.
-uint float_plane_bytes(uint plane) {
-    const bool specular = plane >= PLANE_SPECULAR_R && plane <= PLANE_SPECULAR_F90;
-    return specular || (plane >= PLANE_POSITION_X && plane <= PLANE_OCCLUSION_F) ? 4 : 0;
-}
-
-uint packed_plane_bytes(uint plane) {
-    if (plane == PLANE_OCCLUSION) return 1;
-    return plane <= PLANE_MATERIAL || plane == PLANE_SPECULAR ? 4 : 0;
-}
-
-// rgba16f position and normal; albedo and the optional planes as in `packed`.
-uint half_plane_bytes(uint plane) {
-    if (plane >= PLANE_POSITION_X && plane <= PLANE_NORMAL_Z) return 2;
-    return plane == PLANE_NORMAL ? 0 : packed_plane_bytes(plane);
-}
-
-// Two rows of four floats; the optional planes as in `packed`.
-uint oct_2x4_plane_bytes(uint plane) {
-    if (plane == PLANE_ROW_0 || plane == PLANE_ROW_1) return 16;
-    const bool optional =
-        plane == PLANE_MATERIAL || plane == PLANE_OCCLUSION || plane == PLANE_SPECULAR;
-    return optional ? packed_plane_bytes(plane) : 0;
+    const auto feature = row_of(plane).feature;
+    return (!feature || needs.*feature) && plane_element_bytes(needs.layout, plane) > 0;
 }
 
 }  // namespace
 
-uint plane_element_bytes(uint layout, uint plane) {
-    if (plane == PLANE_DEPTH) return 4;
-    switch (layout) {
-        case GBUFFER_FULL:
-            return float_plane_bytes(plane);
-        case GBUFFER_HALF:
-            return half_plane_bytes(plane);
-        case GBUFFER_OCT_2X4:
-            return oct_2x4_plane_bytes(plane);
-        default:
-            return packed_plane_bytes(plane);
-    }
-}
+uint plane_element_bytes(uint layout, uint plane) { return row_of(plane).bytes.at(layout); }
 
 GBufferLayout make_gbuffer_layout(const GBufferNeeds& needs, uint stride, uint height) {
     GBufferLayout out{};

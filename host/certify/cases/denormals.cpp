@@ -100,8 +100,10 @@ DenormalOutput on_host(const DenormalInput& in, bool flush) {
 #endif
     DenormalOutput out;
     for (const float x : in.x) {
-        const FV3 one = fv3(0.5f, 0.5f, 0.5f);
-        const Surface s{fv3(x, 0, -2), fv3(0, 0, 1), one, zero3(), 0.2f, 0.0f, 1.0f};
+        Surface s = plain_surface();
+        s.position = fv3(x, 0, -2);
+        s.albedo = fv3(0.5f, 0.5f, 0.5f);
+        s.roughness = 0.2f;
         const ShadingPoint p = make_shading_point(s, false);
         LightSum sum = zero_sum();
         for (const ShadeLight& light : in.lights) sum = evaluate(sum, p, light);

@@ -191,8 +191,8 @@ Planes decode(const Gpu& gpu, const KernelFeatures& features, const GBuffer& gbu
     DecodeGBuffer stage(gpu, default_tuning(gpu.info), features);
     const cl::Buffer planes = stage.enqueue(gbuffer, timer);
     const View& view = gbuffer.view;
-    return {view, download<float>(gpu, planes,
-                                  std::size_t{stage.plane_count()} * view.stride * view.height)};
+    return {view,
+            download<float>(gpu, planes, std::size_t{SURFACE_PLANES} * view.stride * view.height)};
 }
 
 Light point_light(const glm::dvec3& position, double range, const glm::dvec3& intensity) {

@@ -8,7 +8,7 @@
 #include "host/certify/synthetic/random.h"
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
-#include "kernels/shared/surface_planes.h"
+#include "kernels/shared/gbuffer.h"
 
 namespace kilolux {
 

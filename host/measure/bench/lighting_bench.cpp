@@ -15,8 +15,9 @@ namespace kilolux {
 namespace {
 
 bool same_planes(const GBufferNeeds& a, const GBufferNeeds& b) {
-    return a.layout == b.layout && a.material == b.material && a.occlusion == b.occlusion &&
-           a.emissive_scale == b.emissive_scale && a.specular == b.specular && a.unlit == b.unlit;
+    const GBufferLayout p = make_gbuffer_layout(a, 16, 1), q = make_gbuffer_layout(b, 16, 1);
+    return p.layout == q.layout && p.emissive_scale == q.emissive_scale && a.unlit == b.unlit &&
+           std::ranges::equal(p.offset_bytes, q.offset_bytes);
 }
 
 // Whether both can use the same G-buffer.

@@ -5,24 +5,17 @@
 
 namespace kilolux {
 
-SurfaceSample surface_sample(const std::function<double(std::size_t)>& value, bool specular,
-                             bool unlit) {
+SurfaceSample surface_sample(const std::function<double(std::size_t)>& value_of, bool unlit) {
     const auto vector = [&](std::size_t plane) {
-        return glm::dvec3(value(plane), value(plane + 1), value(plane + 2));
+        return glm::dvec3(value_of(plane), value_of(plane + 1), value_of(plane + 2));
     };
     SurfaceSample out;
-    if (value(SURFACE_DEPTH) == 0.0) return out;
+    if (value_of(SURFACE_DEPTH) == 0.0) return out;
     out.position = vector(SURFACE_POSITION);
     out.normal = vector(SURFACE_NORMAL);
-    out.albedo = vector(SURFACE_ALBEDO);
-    out.emissive = vector(SURFACE_EMISSIVE);
-    out.roughness = value(SURFACE_ROUGHNESS);
-    out.metallic = value(SURFACE_METALLIC);
-    out.occlusion = value(SURFACE_OCCLUSION);
-    if (specular) {
-        out.specular = vector(SURFACE_SPECULAR);
-        out.specular_f90 = value(SURFACE_SPECULAR_F90);
-    }
+#define DECODED_VECTOR(has, member, decoded, plane, value) out.member = vector(decoded);
+#define DECODED_SCALAR(has, member, decoded, plane, value) out.member = value_of(decoded);
+    SURFACE_VALUES(DECODED_VECTOR, DECODED_SCALAR)
     out.kind =
         unlit && out.roughness == double{UNLIT_ROUGHNESS} ? SurfaceKind::unlit : SurfaceKind::lit;
     return out;
@@ -35,9 +28,8 @@ SurfaceSamples surface_samples(const DecodedSurfaces& decoded) {
     for (std::size_t y = 0; y < view.height; ++y) {
         for (std::size_t x = 0; x < view.width; ++x) {
             const std::size_t pixel = y * view.stride + x;
-            out.pixels[y * view.width + x] =
-                surface_sample([&](std::size_t plane) { return double{decoded.at(plane, pixel)}; },
-                               decoded.specular, decoded.unlit);
+            out.pixels[y * view.width + x] = surface_sample(
+                [&](std::size_t plane) { return double{decoded.at(plane, pixel)}; }, decoded.unlit);
         }
     }
     return out;

@@ -10,10 +10,9 @@
 
 namespace kilolux {
 
-/// One decoded pixel; `value(SURFACE_*)` returns a plane's value. `specular`, `unlit`: as in
+/// One decoded pixel; `value_of(SURFACE_*)` returns a plane's value. `unlit`: as in
 /// DecodedSurfaces.
-SurfaceSample surface_sample(const std::function<double(std::size_t)>& value, bool specular,
-                             bool unlit);
+SurfaceSample surface_sample(const std::function<double(std::size_t)>& value_of, bool unlit);
 
 /// A decoded G-buffer as input of a reference. Normals are not renormalised, as in the kernels.
 /// Depth 0 is background.

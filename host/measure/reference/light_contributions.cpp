@@ -27,8 +27,7 @@ std::vector<LightContribution> light_contributions(const PixelProbe& probe,
     model.ambient = 0.0;
     SurfaceSamples surfaces = make_surface_samples(1, 1);
     SurfaceSample& surface = surfaces.at(0, 0);
-    surface = surface_sample([&](std::size_t plane) { return probe.surface[plane]; },
-                             probe.specular, probe.unlit);
+    surface = surface_sample([&](std::size_t plane) { return probe.surface[plane]; }, probe.unlit);
     surface.emissive = glm::dvec3(0.0);
     std::vector<LightContribution> out;
     for (const ProbedLight& light : probe.lights) {

@@ -6,6 +6,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "kernels/shared/gbuffer.h"
+
 namespace kilolux {
 
 enum class SurfaceKind : std::uint8_t {
@@ -18,13 +20,11 @@ enum class SurfaceKind : std::uint8_t {
 struct SurfaceSample {
     glm::dvec3 position{0.0};          // [m], view space
     glm::dvec3 normal{0.0, 0.0, 1.0};  // unit, view space
-    glm::dvec3 albedo{0.0};            // base colour, linear Rec. 709
-    glm::dvec3 emissive{0.0};          // radiance
-    double roughness = 1.0;            // perceptual
-    double metallic = 0.0;
-    double occlusion = 1.0;
-    glm::dvec3 specular{0.04};  // reflectance of the dielectric part at normal incidence
-    double specular_f90 = 1.0;  // and at grazing angles
+#define SAMPLE_VECTOR(has, member, decoded, plane, value) glm::dvec3 member{value};
+#define SAMPLE_SCALAR(has, member, decoded, plane, value) double member = value;
+    SURFACE_VALUES(SAMPLE_VECTOR, SAMPLE_SCALAR)
+#undef SAMPLE_VECTOR
+#undef SAMPLE_SCALAR
     SurfaceKind kind = SurfaceKind::background;
     std::uint32_t instance = 0;  // of the scene, where a ray hit
     std::uint32_t triangle = 0;  // of the instance's mesh

@@ -48,7 +48,7 @@ constexpr Bytes kHostPixel = 2 * kPicturePixel;
 // On the device, and twice on the host: as planes and pixels.
 constexpr Bytes kBandPixel = 3 * kPicturePixel;
 // Kernels count the elements of a picture's planes in 32 bits.
-constexpr Bytes kMostBandPixels = (Bytes{1} << 32) / SURFACE_PLANES_WITH_SPECULAR - 1;
+constexpr Bytes kMostBandPixels = (Bytes{1} << 32) / SURFACE_PLANES - 1;
 // Anisotropy changes no texture's memory.
 constexpr int kAnyAnisotropy = 1;
 // OpenCL drivers and encoders of image files take the rest of what is available.

@@ -33,28 +33,37 @@ float largest_emission(const Material& m) {
     return std::max(emissive, unlit);
 }
 
-bool is_metallic(const Material& m) { return !m.unlit && m.metallic > 0.0f; }
-
-bool reflects_otherwise(const Material& m) { return !m.unlit && has_own_reflectance(m); }
-
 bool is_forced(const RenderSettings& settings, std::string_view name) {
     return std::ranges::count(settings.force_features, name) > 0;
 }
+
+using F = SceneFeatures;
+
+// A feature that some materials need.
+struct MaterialFeature {
+    bool F::*member;
+    bool (*needs)(const Material& m);
+    bool glossy = false;  // only where surfaces reflect
+};
+
+constexpr MaterialFeature kMaterialFeatures[] = {
+    {&F::metallic, [](const Material& m) { return !m.unlit && m.metallic > 0.0f; }, true},
+    {&F::emissive, [](const Material& m) { return largest_emission(m) > 0.0f; }},
+    {&F::occlusion, [](const Material& m) { return m.occlusion_texture.present(); }},
+    {&F::specular, [](const Material& m) { return !m.unlit && has_own_reflectance(m); }, true},
+    {&F::unlit_materials, [](const Material& m) { return m.unlit; }},
+    {&F::normal_maps, [](const Material& m) { return m.normal_texture.present(); }},
+    {&F::alpha_mask, [](const Material& m) { return m.alpha_mode == AlphaMode::mask; }},
+    {&F::alpha_blend, [](const Material& m) { return m.alpha_mode == AlphaMode::blend; }},
+};
 
 SceneFeatures features_of(const Scene& scene, const std::vector<Material>& materials) {
     SceneFeatures out;
     out.light_d_min = light_d_min(scene);
     out.light_profiles = !scene.aimed_profiles.empty();
     for (const SceneLight& light : scene.lights) out.*kind_of(light).feature = true;
-    for (const Material& m : materials) {
-        out.metallic |= is_metallic(m);
-        out.emissive |= largest_emission(m) > 0.0f;
-        out.occlusion |= m.occlusion_texture.present();
-        out.specular |= reflects_otherwise(m);
-        out.unlit_materials |= m.unlit;
-        out.normal_maps |= m.normal_texture.present();
-        out.alpha_mask |= m.alpha_mode == AlphaMode::mask;
-        out.alpha_blend |= m.alpha_mode == AlphaMode::blend;
+    for (const MaterialFeature& feature : kMaterialFeatures) {
+        out.*feature.member = std::ranges::any_of(materials, feature.needs);
     }
     return out;
 }
@@ -70,8 +79,9 @@ int shading_of(const RenderSettings& settings, const std::vector<Material>& mate
 // The features that the pictures need of those that the scene has, and the forced ones.
 SceneFeatures needed(SceneFeatures out, bool glossy, const RenderSettings& settings) {
     out.gloss = glossy || settings.want.whole_surfaces();
-    out.metallic &= glossy;
-    out.specular &= glossy;
+    for (const MaterialFeature& feature : kMaterialFeatures) {
+        out.*feature.member &= glossy || !feature.glossy;
+    }
     out.unlit = glossy && out.unlit_materials;
     out.occlusion &= settings.ambient > 0.0f;
     for (const SceneFeature& feature : scene_feature_table()) {
@@ -148,9 +158,10 @@ ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings,
 
 int added_bytes_per_pixel(const ScenePlan& plan, std::string_view feature) {
     GBufferNeeds needs = plan.gbuffer;
-    if (feature == "metallic" || feature == "emissive") needs.material = true;
-    if (feature == "occlusion") needs.occlusion = true;
-    if (feature == "specular") needs.specular = true;
+    for (const SceneFeature& row : scene_feature_table()) {
+        if (row.name == feature) needs.*row.member = true;
+    }
+    needs.material = needs.metallic || needs.emissive;
     return static_cast<int>(make_gbuffer_layout(needs, 16, 1).bytes_per_pixel) -
            plan.gbuffer_bytes_per_pixel;
 }

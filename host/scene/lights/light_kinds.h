@@ -22,13 +22,15 @@ struct LightKind {
     bool is_placed;         // has a position and a range, intensity in candela; else lux
     bool is_aimed;          // has a direction
     bool has_cone;
+    bool is_summed;  // trees of lights may take many for one: a point, alike all around
     bool SceneFeatures::*feature;  // of scenes that have one
 };
 
 inline constexpr auto kLightKinds = std::to_array<LightKind>({
-    {LightType::point, "point", true, false, false, &SceneFeatures::point_lights},
-    {LightType::spot, "spot", true, true, true, &SceneFeatures::spot_lights},
-    {LightType::directional, "directional", false, true, false, &SceneFeatures::directional_lights},
+    {LightType::point, "point", true, false, false, true, &SceneFeatures::point_lights},
+    {LightType::spot, "spot", true, true, true, false, &SceneFeatures::spot_lights},
+    {LightType::directional, "directional", false, true, false, false,
+     &SceneFeatures::directional_lights},
 });
 static_assert([] {
     for (const LightKind& kind : kLightKinds) {

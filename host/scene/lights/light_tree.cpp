@@ -124,8 +124,7 @@ class Builder {
 }  // namespace
 
 bool is_for_tree(const SceneLight& light) {
-    const LightKind& kind = kind_of(light);
-    return kind.is_placed && !kind.is_aimed && lacks_range(light) && light.profile < 0 &&
+    return kind_of(light).is_summed && lacks_range(light) && light.profile < 0 &&
            !light.follows_camera;
 }
 

@@ -5,7 +5,7 @@
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
 #include "host/gpu/stage_info.h"
-#include "kernels/shared/surface_planes.h"
+#include "kernels/shared/gbuffer.h"
 
 namespace kilolux {
 
@@ -15,20 +15,16 @@ inline constexpr StageInfo kDecodeGbufferStage = {"decode_gbuffer", StageGroup::
 class DecodeGBuffer {
  public:
     /// Bytes of a pixel at most.
-    static constexpr std::size_t kPixelBytes = SURFACE_PLANES_WITH_SPECULAR * sizeof(float);
+    static constexpr std::size_t kPixelBytes = SURFACE_PLANES * sizeof(float);
 
     DecodeGBuffer(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
-    /// Returns float[plane_count()][height][stride], see kernels/shared/surface_planes.h. Enqueues
+    /// Returns float[SURFACE_PLANES][height][stride], see kernels/shared/gbuffer.h. Enqueues
     /// only.
     DeviceArray<float> enqueue(const GBuffer& gbuffer, StageTimer& timer);
 
-    /// SURFACE_PLANES, or SURFACE_PLANES_WITH_SPECULAR where the features have it.
-    uint plane_count() const { return plane_count_; }
-
  private:
     Tuning tuning_;
-    uint plane_count_;
     Kernel kernel_;
     GrowingArray<float> planes_;
 };

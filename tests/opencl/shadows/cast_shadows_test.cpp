@@ -12,7 +12,7 @@
 #include "host/stages/shading/shade.h"
 #include "host/stages/shadows/count_seen.h"
 #include "kernels/shared/evaluate_modes.h"
-#include "kernels/shared/surface_planes.h"
+#include "kernels/shared/gbuffer.h"
 #include "tests/support/full.h"
 #include "tests/support/test_gpu.h"
 

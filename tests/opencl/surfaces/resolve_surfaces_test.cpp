@@ -14,7 +14,7 @@
 #include "host/stages/surfaces/count_texels.h"
 #include "host/stages/surfaces/decode_gbuffer.h"
 #include "host/stages/surfaces/raster_triangles.h"
-#include "kernels/shared/surface_planes.h"
+#include "kernels/shared/gbuffer.h"
 #include "tests/support/full.h"
 #include "tests/support/test_gpu.h"
 
@@ -175,7 +175,7 @@ std::vector<float> decoded(const Gpu& gpu, const Resolved& quad) {
     StageTimer timer;
     const View& view = quad.gbuffer.view;
     return download<float>(gpu, decode.enqueue(quad.gbuffer, timer),
-                           decode.plane_count() * view.stride * view.height);
+                           SURFACE_PLANES * view.stride * view.height);
 }
 
 // The planes of a layout, as bytes.

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Codes of a surface's values, and the values of codes, for OpenCL C and GLSL.
+#ifndef KILOLUX_SHARED_PACK_H
+#define KILOLUX_SHARED_PACK_H
+#include "kernels/shared/surface.h"
+
+// The code of v in [0, 1], rounded.
+SHARED_FN UV unorm_code(FV v, float largest) {
+    return lane_to_uint(fma(min(max(v, fv(0.0f)), fv(1.0f)), fv(largest), fv(0.5f)));
+}
+
+SHARED_FN UV pack_color(UV r, UV g, UV b, UV a) { return r | (g << 8) | (b << 16) | (a << 24); }
+
+SHARED_FN UV pack_linear(FV3 c, UV a) {
+    return pack_color(unorm_code(c.x, 255.0f), unorm_code(c.y, 255.0f), unorm_code(c.z, 255.0f), a);
+}
+
+// Two coordinates in [-1, 1] as 16 bits each.
+SHARED_FN UV pack_normal(FV x, FV y) {
+    return unorm_code(fma(x, fv(0.5f), fv(0.5f)), 65535.0f) |
+           (unorm_code(fma(y, fv(0.5f), fv(0.5f)), 65535.0f) << 16);
+}
+
+SHARED_FN FV unorm8(UV code) { return lane_to_float(code) * (1.0f / 255.0f); }
+
+// [-1, 1] of a 16-bit UNORM.
+SHARED_FN FV snorm_of_unorm16(UV code) {
+    return fma(lane_to_float(code), fv(2.0f / 65535.0f), fv(-1.0f));
+}
+
+// Reflectance of a code, the square root in 255ths: 51 is DIELECTRIC_F0 exactly.
+SHARED_FN FV reflectance_of(UV code) {
+    FV root = lane_to_float(code);
+    return root * root * (1.0f / 65025.0f);
+}
+
+SHARED_FN FV3 unorm8_color(UV rgba) {
+    return fv3(unorm8(rgba & 255u), unorm8((rgba >> 8) & 255u), unorm8((rgba >> 16) & 255u));
+}
+
+SHARED_FN UV pack_specular(Surface s) {
+    FV3 root = fv3(lane_sqrt(s.specular.x), lane_sqrt(s.specular.y), lane_sqrt(s.specular.z));
+    return pack_linear(root, unorm_code(s.specular_f90, 255.0f));
+}
+
+SHARED_FN Surface unpack_specular(UV code, Surface s) {
+    s.specular = fv3(reflectance_of(code & 255u), reflectance_of((code >> 8) & 255u),
+                     reflectance_of((code >> 16) & 255u));
+    s.specular_f90 = unorm8(code >> 24);
+    return s;
+}
+
+// The optional planes of four bytes that all layouts but `full` may have, beside PLANE_MATERIAL:
+// whether the scene's G-buffers have it, its number, and its functions.
+#define PACKED_PLANES(PLANE) PLANE(HAS_SPECULAR, PLANE_SPECULAR, pack_specular, unpack_specular)
+#endif
