@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Compiles the program's files with clang, without code: usage clang_syntax.py BUILD [SUBSTRING | --alone].
 
-The units are those of BUILD/compile_commands.json (files of a room together with KILOLUX_UNITY) that do not belong to
-tests, or whose names hold SUBSTRING. g++'s own options and precompiled headers are left out.
+The targets are those of BUILD/compile_commands.json that are no tests, or the units whose names hold SUBSTRING. The units of a
+target are compiled as one file, which includes them: a warning that clang gives of main files only is not given. g++'s own options and
+precompiled headers are left out.
 
 Without SUBSTRING the files of FUZZ are compiled one by one, too, which no unit of an ordinary build has. With --alone it is
 the files of ALONE, to which a unit would lend its includes. Only headers of libraries, compiled once, come before each.
@@ -24,7 +25,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 FUZZ = ("tests/fuzz",)
 ALONE = ("present/cli", "present/commands", "present/image", "present/video")
 LIBRARIES = ("kernels/shared", "host", "present/cli", "present/image", "present/video", "present/commands")
-APART = ("kilolux_present.dir/",)
+APART = ("kilolux_present.dir/", "_tests.dir/")
 ALONE_HAS = "/kilolux_present.dir/"  # in the output of the unit whose options they get
 
 
@@ -72,21 +73,22 @@ def compile_targets(units):
     """The return codes of the units' targets; those of a target are compiled as one, which reads its headers once."""
     targets = collections.defaultdict(list)
     for unit in units:
-        output = unit.get("output") or unit["command"].split(" -o ")[1]
-        # Files of APART may have equal names in unnamed namespaces.
-        name = output.split()[0] if any(name in output for name in APART) else output.split(".dir/")[0]
+        output = (unit.get("output") or unit["command"].split(" -o ")[1]).split()[0]
+        # Files of APART may have equal names in unnamed namespaces, and tests macros of their own.
+        is_apart = any(part in output for part in APART)
+        name = output if is_apart else output.split(".dir/")[0]
         targets[unit["directory"], name, tuple(clang_command(unit))].append(unit["file"])
     with tempfile.TemporaryDirectory() as folder:
 
         def compile_target(item):
-            (directory, name, command), files = item
-            joint = os.path.join(folder, name.replace("/", "_") + ".cpp")
+            index, ((directory, _, command), files) = item
+            joint = os.path.join(folder, f"{index}.cpp")
             with open(joint, "w", encoding="utf-8") as file:
                 file.writelines(f'#include "{path}"\n' for path in sorted(files))
             return subprocess.run([*command, joint], cwd=directory, check=False).returncode
 
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-            return list(pool.map(compile_target, targets.items()))
+            return list(pool.map(compile_target, enumerate(targets.items())))
 
 
 def main():
@@ -105,7 +107,7 @@ def main():
     codes = compile_targets(chosen)
     if not wanted:
         codes += compile_alone(units, FUZZ)
-    print(f"{len(codes) - codes.count(0)} of {len(codes)} units do not compile with clang")
+    print(f"{len(codes) - codes.count(0)} of {len(codes)} targets do not compile with clang")
     sys.exit(1 if any(codes) else 0)
 
 

@@ -63,9 +63,8 @@ WorldLight row_of(const kilolux_light& light, std::size_t i) {
         refuse_light(i, "range is " + std::to_string(light.range) + ", must be > 0 and finite");
     }
     if (!is_finite(light.intensity)) refuse_light(i, "its intensity is not finite");
-    Light row{{0, 0, 0, light.range},
-              {light.intensity[0], light.intensity[1], light.intensity[2], 1.0f},
-              {0, 0, 0, -1.0f}};
+    Light row = point_light_rows(
+        {0, 0, 0, light.range}, {light.intensity[0], light.intensity[1], light.intensity[2], 0.0f});
     if (light.is_spot != 0) {
         const float width = light.cos_inner - light.cos_outer;
         const std::optional<float4> axis = unit_of(light.axis, light.cos_outer);

@@ -21,7 +21,7 @@ constexpr uint kBackground = ~0u;
 
 /// A decoded G-buffer on the host, with what is known of each pixel's lights.
 struct DecodedSurfaces {
-    /// Bytes of a pixel at most, without planes that only some AOVs have: surface and counts.
+    /// Bytes of a pixel, without planes that only some AOVs have: surface and counts.
     static constexpr std::size_t kPixelBytes = SURFACE_PLANES * sizeof(float) + 2 * sizeof(uint);
 
     View view{};

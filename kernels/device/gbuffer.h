@@ -206,7 +206,7 @@ static inline Surface load_row_material(GBuffer g, Pixels pixels, Surface s) {
 
 // The surfaces of pixels at depths z [m].
 static inline Surface load_surface(GBuffer g, Pixels pixels, FV z) {
-    Surface s = plain_surface();
+    Surface s = default_surface();
     s.position = load_position(g, pixels, z);
     s.normal = load_normal(g, pixels);
 #if GBUFFER == GBUFFER_FULL

@@ -13,19 +13,18 @@
 #endif
 
 #if HALF_LIGHT_COLORS
-#if HAS_SPOT_LIGHTS
-#define STORED_ROWS AIMED_ROWS
-#else
-#define STORED_ROWS(ROW)
-#endif
-
+// Rows that the scene lacks are not stored.
+#define STORED_0(text)
+#define STORED_1(text) text
+#define STORED_IF(has, text) STORED_##has(text)
 // The colour is divided by a power of two, so that no intensity overflows. 32 bytes instead of 48
 // without spot lights.
 typedef struct StoredLight {
     float4 position_inv_range2;
     // xy: half4 of the colour / z; z: that power of two; w: 1/(cos_in - cos_out)
     uint4 color_scale;
-    STORED_ROWS(LIGHT_ROW)
+#define STORED_ROW(has, feature, member) STORED_IF(has, float4 member;)
+    LIGHT_ROWS(STORED_ROW)
 } StoredLight;
 
 static inline ShadeLight load_light(global const StoredLight* stored) {
@@ -34,8 +33,8 @@ static inline ShadeLight load_light(global const StoredLight* stored) {
     light.color_scale =
         vload_half4(0, (global const half*)&stored->color_scale) * as_float(stored->color_scale.z);
     light.color_scale.w = as_float(stored->color_scale.w);
-#define LOAD_ROW(member) light.member = stored->member;
-    STORED_ROWS(LOAD_ROW)
+#define LOAD_ROW(has, feature, member) STORED_IF(has, light.member = stored->member;)
+    LIGHT_ROWS(LOAD_ROW)
     return light;
 }
 
@@ -45,8 +44,8 @@ static inline void store_half_light(global StoredLight* stored, ShadeLight light
     stored->position_inv_range2 = light.position_inv_range2;
     stored->color_scale.zw = as_uint2((float2)(unit, c.w));
     vstore_half4_rte((float4)(c.xyz / unit, 0.0f), 0, (global half*)&stored->color_scale);
-#define STORE_ROW(member) stored->member = light.member;
-    STORED_ROWS(STORE_ROW)
+#define STORE_ROW(has, feature, member) STORED_IF(has, stored->member = light.member;)
+    LIGHT_ROWS(STORE_ROW)
 }
 #define LIGHT_AT(lights, i) load_light((lights) + (i))
 #else

@@ -153,10 +153,9 @@ kernel void drift_lights(global const LightDrift* restrict drifts,  // [count]
     DriftBox box = boxes[d.high.w];
     DriftPlace p = place_at(d, box, (Elapsed){seconds, of_halves(rest_high, rest_low)});
     WorldLight row;
-    row.light.position_range = (float4)(p.x.x, p.y.x, p.z.x, box.min.w);
-    row.light.color_scale =
-        (float4)(as_float(d.low.w), as_float(d.rate_high.w), as_float(d.rate_low.w), 1.0f);
-    row.light.axis_cos = (float4)(0.0f, 0.0f, 0.0f, -1.0f);  // a point light's cone
+    row.light = point_light_rows(
+        (float4)(p.x.x, p.y.x, p.z.x, box.min.w),
+        (float4)(as_float(d.low.w), as_float(d.rate_high.w), as_float(d.rate_low.w), 0.0f));
     row.position_low = (float4)(p.x.y, p.y.y, p.z.y, 0.0f);
     world[first + i] = row;
 }

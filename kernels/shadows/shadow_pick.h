@@ -50,7 +50,7 @@ static inline ShadowPick make_pick(Surface s, ShadowSamples samples, View view, 
 
 // |f| of a light whose sum alone is `one`.
 static inline FV light_alone(ShadowPick pick, LightSum one) {
-    return luminance(reflected_light(pick.surface, one));
+    return luminance(reflected_radiance(pick.surface, one));
 }
 
 static inline FV pick_probability(ShadowPick pick, FV light) {
@@ -72,7 +72,7 @@ static inline LightSum add_hidden(LightSum sum, LightSum one, FV probability, MA
 
 // The estimate: the radiance if all lights are seen without that of the sum `hidden`.
 static inline FV3 without_hidden(ShadowPick pick, FV3 whole, LightSum hidden) {
-    return sub3(whole, reflected_light(pick.surface, hidden));
+    return sub3(whole, reflected_radiance(pick.surface, hidden));
 }
 
 // The term of a picked, hidden light in the estimated variance of the luminance.

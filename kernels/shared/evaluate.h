@@ -80,7 +80,7 @@ SHARED_FN LightSum add_pbr(LightSum sum, ShadingPoint p, FV3 v, FV inv_length, F
     FV ggx = fma(dot3(nxh, nxh), p.ggx_slope, p.ggx_floor * hh);
     FV smith_l = lane_sqrt(fma(n_dot_l * n_dot_l, fv(1.0f) - p.alpha2, p.alpha2));
     FV smith = fma(n_dot_l, p.smith_v, p.n_dot_v * smith_l);
-    // D * V without its constant 1 / (2 pi), which finish_shading multiplies in.
+    // D * V without its constant 1 / (2 pi), which reflected_radiance() multiplies in.
     FV lobe = lane_divide(lit * (hh * hh), ggx * ggx * smith);
     FV schlick = max(fma(-dot3(p.to_eye, h), lane_rsqrt(hh), fv(1.0f)), fv(0.0f));
     FV schlick2 = schlick * schlick;
@@ -194,7 +194,7 @@ SHARED_FN LightSum evaluate_directional(LightSum sum, ShadingPoint p, Directiona
 }
 
 // Radiance that the surface reflects, from the sums over its lights.
-SHARED_FN FV3 reflected_light(Surface s, LightSum sum) {
+SHARED_FN FV3 reflected_radiance(Surface s, LightSum sum) {
     FV3 albedo = s.albedo;
     FV k = fv(INV_PI);
     FV3 out_radiance;
@@ -233,9 +233,9 @@ SHARED_FN FV3 reflected_light(Surface s, LightSum sum) {
     return out_radiance;
 }
 
-// Adds to a bound of sums light from directions with n.h <= `cosine` and Schlick's rise <=
-// `fresnel`. `diffuse`: what the diffuse term gets at most; `all`: the sum of intensity /
-// distance^2; `irradiance`: the same times n.l.
+// Adds the largest sums that light can cause. Its n.h is at most `cosine`, Schlick's (1 - v.h)^5 at
+// most `fresnel`. `diffuse`: a bound of the diffuse sum; `all`: the sum of intensity / distance^2;
+// `irradiance`: that sum times n.l, or `all` where n.l is unknown.
 SHARED_FN LightSum add_bounds(LightSum sum, Surface s, ShadingPoint p, FV cosine, FV fresnel,
                               FV3 diffuse, FV3 irradiance, FV3 all) {
     sum.diffuse = add3(sum.diffuse, diffuse);
@@ -257,14 +257,17 @@ SHARED_FN LightSum add_bounds(LightSum sum, Surface s, ShadingPoint p, FV cosine
     return sum;
 }
 
+// Relative; more than the rounding of the sums.
+#define BOUND_ROUNDING 1e-4f
+
 // Radiance that the surface reflects at most, from bounds of the sums.
-SHARED_FN FV3 bounded_light(Surface s, LightSum most) {
-    return scale3(reflected_light(s, most), fv(1.0001f));  // more than the sums' rounding
+SHARED_FN FV3 radiance_bound(Surface s, LightSum most) {
+    return scale3(reflected_radiance(s, most), fv(1.0f + BOUND_ROUNDING));
 }
 
 // Radiance of the surface, from the sums over its lights.
 SHARED_FN FV3 finish_shading(Surface s, LightSum sum, float ambient) {
-    FV3 lit = reflected_light(s, sum);
+    FV3 lit = reflected_radiance(s, sum);
     FV a = s.occlusion * fv(ambient);
     return fv3(fma(a, s.albedo.x, lit.x) + s.emissive.x, fma(a, s.albedo.y, lit.y) + s.emissive.y,
                fma(a, s.albedo.z, lit.z) + s.emissive.z);

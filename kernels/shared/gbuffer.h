@@ -79,18 +79,20 @@ namespace kilolux {
 #define PLANE_COUNT 27
 #define PLANE_ABSENT 0xffffffffu
 
-// The values of a surface beside its position and normal, a row each. VECTOR, SCALAR(has, member,
-// decoded, plane, value): whether the scene's G-buffers hold it; its member of Surface and of the
-// references' SurfaceSample; its first plane of a decoded G-buffer and of the layout `full`; its
-// value where the G-buffer does not hold it.
-#define SURFACE_VALUES(VECTOR, SCALAR)                                                         \
-    VECTOR(1, albedo, SURFACE_ALBEDO, PLANE_ALBEDO_R, 0.0f)        /* base colour, Rec. 709 */ \
-    SCALAR(1, roughness, SURFACE_ROUGHNESS, PLANE_ROUGHNESS, 1.0f) /* perceptual */            \
-    SCALAR(HAS_MATERIAL, metallic, SURFACE_METALLIC, PLANE_METALLIC, 0.0f)                     \
-    VECTOR(HAS_MATERIAL, emissive, SURFACE_EMISSIVE, PLANE_EMISSIVE_R, 0.0f) /* radiance */    \
-    SCALAR(HAS_OCCLUSION, occlusion, SURFACE_OCCLUSION, PLANE_OCCLUSION_F, 1.0f)               \
-    /* reflectance of the dielectric part head on, and at grazing angles */                    \
-    VECTOR(HAS_SPECULAR, specular, SURFACE_SPECULAR, PLANE_SPECULAR_R, DIELECTRIC_F0)          \
+// The values of a surface beside its position and normal, a row each.
+//   has      1 if the scene's G-buffers hold the value
+//   member   of Surface and of the references' SurfaceSample
+//   decoded  its first plane of a decoded G-buffer
+//   plane    its first plane of the layout `full`
+//   value    the default, where `has` is 0
+#define SURFACE_VALUES(VECTOR, SCALAR)                                                      \
+    VECTOR(1, albedo, SURFACE_ALBEDO, PLANE_ALBEDO_R, 0.0f)        /* linear Rec. 709 */    \
+    SCALAR(1, roughness, SURFACE_ROUGHNESS, PLANE_ROUGHNESS, 1.0f) /* perceptual */         \
+    SCALAR(HAS_MATERIAL, metallic, SURFACE_METALLIC, PLANE_METALLIC, 0.0f)                  \
+    VECTOR(HAS_MATERIAL, emissive, SURFACE_EMISSIVE, PLANE_EMISSIVE_R, 0.0f) /* radiance */ \
+    SCALAR(HAS_OCCLUSION, occlusion, SURFACE_OCCLUSION, PLANE_OCCLUSION_F, 1.0f)            \
+    /* reflectance of the dielectric part head on, and at grazing angles */                 \
+    VECTOR(HAS_SPECULAR, specular, SURFACE_SPECULAR, PLANE_SPECULAR_R, DIELECTRIC_F0)       \
     SCALAR(HAS_SPECULAR, specular_f90, SURFACE_SPECULAR_F90, PLANE_SPECULAR_F90, 1.0f)
 // Reflectance of dielectrics at normal incidence (glTF 2.0, appendix B).
 #define DIELECTRIC_F0 0.04f

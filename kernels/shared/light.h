@@ -14,10 +14,14 @@
 namespace kilolux {
 #endif
 
-// Rows of a light beside its position and colour: ROW(member), whose xyz is a direction and whose w
-// is a number.
-#define AIMED_ROWS(ROW) ROW(axis_cos)
-#define LIGHT_ROW(member) float4 member;
+// Rows of a light beside its position and colour, each 16 bytes of every light. ROW(has, feature,
+// member): the macro and the member of SceneFeatures of scenes that have the row; xyz of the member
+// is a vector, which view space turns, w a number, which it keeps.
+#define LIGHT_ROWS(ROW) ROW(HAS_SPOT_LIGHTS, spot_lights, axis_cos)
+#define LIGHT_ROW(has, feature, member) float4 member;
+#define COUNT_LIGHT_ROW(has, feature, member) +1
+// float4 rows of a Light and of a ShadeLight.
+#define LIGHT_ROW_COUNT (2 LIGHT_ROWS(COUNT_LIGHT_ROW))
 
 // A point or spot light, camera-relative: world axes, camera at the origin.
 SHARED_STRUCT(Light) {
@@ -25,9 +29,18 @@ SHARED_STRUCT(Light) {
     float4 position_range;
     float4 color_scale;  // xyz: luminous intensity, linear Rec. 709 [cd]; w: 1/(cos_in - cos_out)
     // axis_cos: unit spot axis (0 for a point light) and cos_out (-1 for a point light)
-    AIMED_ROWS(LIGHT_ROW)
+    LIGHT_ROWS(LIGHT_ROW)
 };
-SHARED_ASSERT(light_size, sizeof(Light) == 48);
+SHARED_ASSERT(light_size, sizeof(Light) == 16 * LIGHT_ROW_COUNT);
+
+// A point light's rows. Its cone is everything: axis 0 and cosine -1 make the cone term exactly 1.
+SHARED_FN Light point_light_rows(float4 position_range, float4 intensity) {
+    Light light;
+    light.position_range = position_range;
+    light.color_scale = make_float4(intensity.x, intensity.y, intensity.z, 1.0f);
+    light.axis_cos = make_float4(0.0f, 0.0f, 0.0f, -1.0f);
+    return light;
+}
 
 // Whether its file gives the range; lights without one get a range, see light_ranges.h.
 SHARED_FN bool has_own_range(Light light) { return light.position_range.w > 0.0f; }
@@ -44,9 +57,9 @@ SHARED_STRUCT(ShadeLight) {
     // xyz: p_view [m]; w: 1/range^2 [1/m^2], negative if has_random_range()
     float4 position_inv_range2;
     float4 color_scale;    // as Light
-    AIMED_ROWS(LIGHT_ROW)  // as Light, in view space
+    LIGHT_ROWS(LIGHT_ROW)  // as Light, in view space
 };
-SHARED_ASSERT(shade_light_size, sizeof(ShadeLight) == 48);
+SHARED_ASSERT(shade_light_size, sizeof(ShadeLight) == 16 * LIGHT_ROW_COUNT);
 
 // Whether the range is a random one: chosen_inv_range2() of light_transform.h.
 SHARED_FN bool has_random_range(ShadeLight light) { return light.position_inv_range2.w < 0.0f; }

@@ -51,8 +51,9 @@ SHARED_FN ShadeLight shade_light(View view, Light light, uint index, uint seed) 
     local_light.position_inv_range2 =
         rotated(view, light.position_range, chosen_inv_range2(light, index, seed));
     local_light.color_scale = light.color_scale;
-#define TURN_ROW(member) local_light.member = rotated(view, light.member, light.member.w);
-    AIMED_ROWS(TURN_ROW)
+#define TURN_ROW(has, feature, member) \
+    local_light.member = rotated(view, light.member, light.member.w);
+    LIGHT_ROWS(TURN_ROW)
     return local_light;
 }
 

@@ -55,23 +55,21 @@ SHARED_PLAIN_STRUCT(Surface) {
     SURFACE_VALUES(MEMBER_VECTOR, MEMBER_SCALAR)
 };
 
-// A surface at the eye, turned to it, with the values of those that a G-buffer does not hold.
-SHARED_FN Surface plain_surface() {
+// A surface at the origin of view space with the normal +z and the default of each row of
+// SURFACE_VALUES; so are background pixels.
+SHARED_FN Surface default_surface() {
     Surface s;
     s.position = zero3();
     s.normal = fv3(fv(0.0f), fv(0.0f), fv(1.0f));
-#define PLAIN_VECTOR(has, member, decoded, plane, value) \
+#define DEFAULT_VECTOR(has, member, decoded, plane, value) \
     s.member = fv3(fv(value), fv(value), fv(value));
-#define PLAIN_SCALAR(has, member, decoded, plane, value) s.member = fv(value);
-    SURFACE_VALUES(PLAIN_VECTOR, PLAIN_SCALAR)
+#define DEFAULT_SCALAR(has, member, decoded, plane, value) s.member = fv(value);
+    SURFACE_VALUES(DEFAULT_VECTOR, DEFAULT_SCALAR)
     return s;
 }
 
 // Unlit surfaces send their emissive light alone.
 SHARED_FN MASK is_lit(Surface s) { return s.roughness > fv(UNLIT_ROUGHNESS); }
-
-// The terms of a BRDF that have sums of their own. TERM(has, member): whether the model has it.
-#define LIGHT_TERMS(TERM) TERM(true, diffuse) TERM(SHADING != SHADING_LAMBERT, specular)
 
 // The values of a surface that are the same for all lights.
 SHARED_PLAIN_STRUCT(ShadingPoint) {

@@ -200,7 +200,7 @@ SHARED_FN Surface with_unlit(MaterialRef material, Surface s) {
 // The surface of the textures' material at the fragments; its position is not set.
 SHARED_FN Surface surface_of_material(IN(Textures) textures, IN(Fragment) f) {
     MaterialRef material = AT(textures).material;
-    Surface s = plain_surface();
+    Surface s = default_surface();
     s.normal = shading_normal(textures, f);
     s.albedo = color_of(MATERIAL(material).row.base_color);
 #if HAS_USE(USE_BASE_COLOR)

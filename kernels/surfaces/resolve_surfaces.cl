@@ -23,7 +23,7 @@ kernel void resolve_surfaces(
     MASK shown = lane_mask(id != (UV)(0u)) & within_picture(view, pixels);
     GBufferTarget to = {gbuffer, layout, view, SRGB_TABLE_OF_ARGS, pixels, shown};
     if (!lane_any(shown)) {
-        store_surface(to, plain_surface(), fv(1.0f));
+        store_surface(to, default_surface(), fv(1.0f));
         return;
     }
     SurfaceScene scene = SCENE_OF_ARGS;

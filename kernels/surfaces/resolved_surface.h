@@ -6,7 +6,7 @@
 #include "kernels/shared/surface_of.h"
 
 static inline Surface resolve_materials(SurfaceScene scene, const Fragment* f, MASK shown) {
-    Surface s = plain_surface();
+    Surface s = default_surface();
     for (MASK left = shown; lane_any(left);) {
         uint material = first_of(f->material, left);
         MASK mask = lane_mask(f->material == (UV)(material)) & left;

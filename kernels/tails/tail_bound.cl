@@ -20,7 +20,7 @@ static inline float irradiance_bound(global const float* m, FV3 n) {
                    2.0f * (n.x * n.y * outer[3] + n.x * n.z * outer[4] + n.y * n.z * outer[5]);
     float both = sqrt(m[TAIL_AIMED] * max(square, 0.0f));
     // Rounding may have changed the difference by as much as its terms.
-    return 0.5f * (both + along) + 1e-4f * m[TAIL_AIMED] + m[TAIL_STRAY];
+    return 0.5f * (both + along) + BOUND_ROUNDING * m[TAIL_AIMED] + m[TAIL_STRAY];
 }
 
 kernel void tail_bound(GBUFFER_ARGS, ClusterGrid grid,
@@ -42,7 +42,8 @@ kernel void tail_bound(GBUFFER_ARGS, ClusterGrid grid,
         all[c] = m[c * TAIL_MOMENTS + TAIL_ALL];
     }
     FV3 received = fv3(irradiance[0], irradiance[1], irradiance[2]);
+    // The directions are unknown: n.h and Schlick's (1 - v.h)^5 are 1 at most.
     LightSum most =
         add_bounds(zero_sum(), s, p, 1.0f, 1.0f, received, received, fv3(all[0], all[1], all[2]));
-    store_radiance(bound, view, item.pixels, bounded_light(s, most));
+    store_radiance(bound, view, item.pixels, radiance_bound(s, most));
 }

@@ -20,7 +20,7 @@ typedef struct NodeError {
 } NodeError;
 
 // Sets `cosine` and `fresnel` of light within `stray` of the direction l.
-static inline NodeError with_lobe(NodeError e, ShadingPoint p, float3 l, float stray) {
+static inline NodeError with_highlight_bounds(NodeError e, ShadingPoint p, float3 l, float stray) {
     float3 v = (float3)(p.to_eye.x, p.to_eye.y, p.to_eye.z);
     float3 n = (float3)(p.normal.x, p.normal.y, p.normal.z);
     float3 h = l + v;
@@ -51,7 +51,7 @@ static inline NodeError node_error(ShadingPoint p, TreeNode node, float4 at) {
     out.diffuse = out.share * min(error, 1.0f);
 #if SHADING != SHADING_LAMBERT
     float stray = node.radius / (distance - 0.5f * node.radius);
-    out = with_lobe(out, p, w / distance, stray);
+    out = with_highlight_bounds(out, p, w / distance, stray);
 #if SHADING == SHADING_PBR
     // Fresnel's complement is diffuse: its slope is at most 5 (1 - v.h)^4 / 2.
     float slope = 2.5f * pow(out.fresnel, 0.8f) * TREE_ROUNDING;
@@ -83,7 +83,7 @@ kernel void tree_bound(LIT_ARGS,
                     add_bounds(most, s, p, e.cosine, e.fresnel, scale3(color, e.diffuse), all, all);
             }
         }
-        out = bounded_light(s, most);
+        out = radiance_bound(s, most);
     }
     store_radiance(bound, view, item.pixels, out);
 }

@@ -17,13 +17,12 @@ layout(binding = CLUSTER_OFFSETS_UNIT) uniform usamplerBuffer cluster_offsets;
 layout(binding = LIGHT_LISTS_UNIT) uniform usamplerBuffer light_lists;
 
 ShadeLight light_at(uint light) {
-#define COUNT_ROW(member) +1
-    int row = (2 AIMED_ROWS(COUNT_ROW)) * int(light);
+    int row = LIGHT_ROW_COUNT * int(light);
     ShadeLight read;
-#define READ_ROW(member) read.member = texelFetch(lights, row++);
-    READ_ROW(position_inv_range2)
-    READ_ROW(color_scale)
-    AIMED_ROWS(READ_ROW)
+    read.position_inv_range2 = texelFetch(lights, row++);
+    read.color_scale = texelFetch(lights, row++);
+#define READ_ROW(has, feature, member) read.member = texelFetch(lights, row++);
+    LIGHT_ROWS(READ_ROW)
     return read;
 }
 uint cluster_offset(uint cluster) { return texelFetch(cluster_offsets, int(cluster)).x; }

@@ -134,7 +134,7 @@ TEST(Bloom, IsMirrorSymmetric) {
     }
 }
 
-TEST(Bloom, SameBitsForEveryLaneWidth) {
+TEST(Bloom, SameBitsForLaneWidths) {
     const BloomPicture source = noise(83, 61);
     BloomPicture expected = bloomed(gpu_of(1), source, 0.5f);
     for (const int lanes : lane_widths()) {

@@ -37,6 +37,9 @@ constexpr PlaneRow kPlanes[] = {
     {PLANE_SPECULAR_F90, {0, 4, 0, 0, 0}, &N::specular},
 };
 
+static_assert(std::ranges::is_sorted(kPlanes, {}, &PlaneRow::last) &&
+              std::end(kPlanes)[-1].last == PLANE_COUNT - 1);  // for row_of()
+
 const PlaneRow& row_of(uint plane) {
     return *std::ranges::find_if(kPlanes, [&](const PlaneRow& row) { return plane <= row.last; });
 }

@@ -100,7 +100,7 @@ DenormalOutput on_host(const DenormalInput& in, bool flush) {
 #endif
     DenormalOutput out;
     for (const float x : in.x) {
-        Surface s = plain_surface();
+        Surface s = default_surface();
         s.position = fv3(x, 0, -2);
         s.albedo = fv3(0.5f, 0.5f, 0.5f);
         s.roughness = 0.2f;

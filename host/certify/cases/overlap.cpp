@@ -15,7 +15,7 @@ struct Plane {
     double offset;
 };
 
-// A cell of the frustum: four sides through the camera, two ends. Not of the first slice, which
+// The planes of a cluster: four sides through the camera, two ends. Not of the first slice, which
 // begins at the camera, nor of the last, which has no end.
 using ClusterPlanes = std::array<Plane, 6>;
 

@@ -74,7 +74,7 @@ struct CsfTerm {
 constexpr std::array<CsfTerm, 1> kAchromatic = {{{1.0, 0.0047}}};
 constexpr std::array<CsfTerm, 1> kRedGreen = {{{1.0, 0.0053}}};
 constexpr std::array<CsfTerm, 2> kBlueYellow = {{{34.1, 0.04}, {13.5, 0.025}}};
-constexpr double kLargestB = 0.04;  // largest b: one radius serves all
+constexpr double kLargestB = 0.04;  // of the b above [degree^2]; one radius serves all
 
 constexpr double kFeatureWidth = 0.082;  // of an edge or point [degree]
 

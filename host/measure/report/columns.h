@@ -16,11 +16,12 @@ namespace kilolux {
 struct ReportColumn : Column<ReportRow> {
     using Column::Column;
 
-    /// Throws Error for a text that is no value. Empty: rows that are read back lack it.
+    /// Reads the text back into the row. Throws Error for a text that is no value. Empty: the
+    /// column is not read back.
     std::function<void(ReportRow& row, const std::string& text)> take{};
-    /// The rows of a table that has it; null: every table has it.
+    /// Whether a table of these rows has the column; null: always.
     bool (*is_shown)(const std::vector<ReportRow>& rows) = nullptr;
-    bool is_text = false;      // an empty field is a text, not a value that was not measured
+    bool is_text = false;      // an empty field is an empty text; in other columns a missing value
     bool of_all_rows = false;  // its value depends on the other rows of the table
 };
 

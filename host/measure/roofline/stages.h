@@ -7,8 +7,8 @@
 
 namespace kilolux {
 
-/// Every stage. Times name those that a frame runs; what is counted or decoded beside it, and what
-/// the installed library does before and after it, is not timed.
+/// Every stage. FrameStats::stages has only those that a frame runs: counting, decoding, and the
+/// installed library's packing are not timed.
 std::span<const StageInfo* const> all_stages();
 
 /// A stage by its name in FrameStats::stages; null for one that is not among them.

@@ -30,10 +30,8 @@ bool has_direction(const glm::dvec3& direction) {
 
 Light row_of(const SceneLight& light, const glm::dvec3& relative) {
     const glm::vec3 p(relative);
-    // A point light's cone is everything: axis 0 and cosine -1 make the cone term exactly 1.
-    Light row{{p.x, p.y, p.z, light.has_own_range ? light.range : -light.range},
-              {light.intensity.x, light.intensity.y, light.intensity.z, 1.0f},
-              {0.0f, 0.0f, 0.0f, -1.0f}};
+    Light row = point_light_rows({p.x, p.y, p.z, light.has_own_range ? light.range : -light.range},
+                                 {light.intensity.x, light.intensity.y, light.intensity.z, 0.0f});
     if (!kind_of(light).has_cone) return row;
     const glm::vec3 axis(glm::normalize(light.direction));
     const double cos_out = std::cos(std::min<double>(light.outer_cone, 1.5707963267948966));

@@ -22,7 +22,7 @@ struct LightKind {
     bool is_placed;         // has a position and a range, intensity in candela; else lux
     bool is_aimed;          // has a direction
     bool has_cone;
-    bool is_summed;  // trees of lights may take many for one: a point, alike all around
+    bool is_summed;  // a light tree may replace many by one: a point, equal in all directions
     bool SceneFeatures::*feature;  // of scenes that have one
 };
 
@@ -35,6 +35,7 @@ inline constexpr auto kLightKinds = std::to_array<LightKind>({
 static_assert([] {
     for (const LightKind& kind : kLightKinds) {
         if (&kind != &kLightKinds[static_cast<std::size_t>(kind.type)]) return false;
+        if (kind.is_summed && (!kind.is_placed || kind.is_aimed)) return false;
     }
     return true;
 }());  // for kind_of()

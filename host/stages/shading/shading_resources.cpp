@@ -17,7 +17,8 @@ Tuning usable(Tuning tuning, const DeviceInfo& device) {
 
 // float4 rows of a StoredLight of kernels/device/stored_light.h.
 std::size_t stored_light_rows(const KernelFeatures& features) {
-    return features.spot_lights ? 3 : 2;
+#define COUNT_STORED_ROW(has, feature, member) +(features.feature ? 1u : 0u)
+    return 2u LIGHT_ROWS(COUNT_STORED_ROW);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ inline constexpr StageInfo kDecodeGbufferStage = {"decode_gbuffer", StageGroup::
 /// Decodes the G-buffer as shading does to float planes: for AOVs, views and references.
 class DecodeGBuffer {
  public:
-    /// Bytes of a pixel at most.
+    /// Bytes of a pixel.
     static constexpr std::size_t kPixelBytes = SURFACE_PLANES * sizeof(float);
 
     DecodeGBuffer(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);

@@ -216,7 +216,7 @@ bool same_for_lanes(const Gpu& gpu, const std::vector<float>& a, const std::vect
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), close);
 }
 
-TEST(Shade, EveryLaneWidthAndTuningGivesTheSameBitsAndLists) {
+TEST(Shade, LaneWidthsAndTuningsGiveTheSameBitsAndLists) {
     const FrameInput in = usual_input(SHADING_PBR, 2000);
     const Frame expected = shade_frame(test_gpu(), in, default_tuning(test_gpu().info));
     for (const int lanes : lane_widths()) {

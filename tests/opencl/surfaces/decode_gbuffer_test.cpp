@@ -128,7 +128,7 @@ void expect_packed_attributes(Synthetic& image, const Planes& planes, uint x, ui
     ASSERT_NEAR(planes.at(SURFACE_SPECULAR_F90, x, y), (specular >> 24) / 255.0, 1e-7);
 }
 
-TEST(DecodeGBuffer, PackedAttributesAtEveryLaneWidth) {
+TEST(DecodeGBuffer, PackedAttributesAtLaneWidths) {
     for (const int lanes : lane_widths()) {
         const Gpu gpu = test_gpu(lanes);
         const KernelFeatures features = features_of(GBUFFER_PACKED);
