@@ -21,6 +21,7 @@ Python3_add_library(kilolux_python MODULE WITH_SOABI ${python_sources})
 add_dependencies(python kilolux_python)
 target_link_libraries(kilolux_python PRIVATE kilolux_present pybind11::headers kilolux_options)
 set(python_folder ${CMAKE_BINARY_DIR}/python/kilolux)
+target_compile_options(kilolux_python PRIVATE -O1)  # bindings: the work is in the libraries
 set_target_properties(kilolux_python PROPERTIES OUTPUT_NAME _native LIBRARY_OUTPUT_DIRECTORY ${python_folder}
   CXX_VISIBILITY_PRESET hidden UNITY_BUILD ${KILOLUX_UNITY} UNITY_BUILD_BATCH_SIZE 12)
 file(GLOB python_files CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/present/python/kilolux/*)

@@ -93,7 +93,7 @@ Scene box_with_light_at_its_face(double size) {
 }
 
 TEST(SceneScale, KernelsShadersAndReferenceHaveOneLeastDistance) {
-    for (const double size : {1e-3, 0.05, 1.0}) {
+    for (const double size : runs_full() ? std::vector{1e-3, 0.05, 1.0} : std::vector{1e-3, 1.0}) {
         const Scene scene = box_with_light_at_its_face(size);
         RenderSettings settings = settings_of(0);
         settings.gbuffer = GBUFFER_FULL;

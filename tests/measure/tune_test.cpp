@@ -149,7 +149,7 @@ Camera camera_for(const Scene& scene) {
     return scene.cameras.empty() ? frame_box(bounds(scene)) : camera_of(scene.cameras.front());
 }
 
-TEST(LightingBenchTest, EveryTuningGivesTheSameBits) {
+TEST(TuningTrials, GiveTheSameBits) {
     const Scene scene = make_generated_scene("grid");
     RenderSettings settings = small_frame();
     settings.shading = Shading::lambert;  // whose kernels build fastest

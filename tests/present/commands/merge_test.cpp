@@ -30,7 +30,7 @@ class Merge : public CacheSandbox {
     ChildResult bench(const std::string& folder, std::vector<std::string> more = {}) const {
         std::vector<std::string> words = {
             "bench",     "grid",      "--resolution", "64,36",
-            "--lights",  "9,20",      "--renderer",   "deferred,forward",
+            "--lights",  "9,20",      "--renderer",   "deferred,deferred-all",
             "--warm-up", "0",         "--frames",     "1",
             "-o",        file(folder)};
         words.insert(words.end(), more.begin(), more.end());
@@ -141,8 +141,8 @@ TEST_F(Merge, EachShardMeasuresItsPointsAlone) {
         }
         points.push_back(names);
     }
-    EXPECT_EQ(points,
-              (std::vector<std::string>{"deferred 9;forward 20;", "deferred 20;", "forward 9;"}));
+    EXPECT_EQ(points, (std::vector<std::string>{"deferred 9;deferred-all 20;", "deferred 20;",
+                                                "deferred-all 9;"}));
     const ChildResult other = bench(parts[0], {"--shard", "1/3", "--resume"});
     EXPECT_EQ(other.code, 1);
     EXPECT_TRUE(contains(other.err, "shard was \"0/3\", is \"1/3\"")) << other.err;
@@ -180,7 +180,7 @@ TEST_F(Merge, RefusesOtherConditionsUnlessTheyAreKept) {
 TEST_F(Merge, RefusesMissingAndDoubledPointsByName) {
     const std::vector<std::string> parts = shards(3);
     const std::string point =
-        "renderer forward, resolution 64x36, lights 9, grid 16x9x4, "
+        "renderer deferred-all, resolution 64x36, lights 9, grid 16x9x4, "
         "lanes auto, gbuffer packed";
     expect_refused({parts[0], parts[1]}, "1 of 4 points are in no result: '" + point + "'");
     const std::string copy = changed(parts[2], "/shard", "0/9");
