@@ -106,6 +106,12 @@ inline FV3 cross3(FV3 a, FV3 b) {
 struct float4 {
     FV x, y, z, w;
 };
+inline FV lane_of(float x) { return {x}; }
+inline FV lane_of(FV x) { return x; }
+template <typename X, typename Y, typename Z>
+float4 make_float4(X x, Y y, Z z, float w) {
+    return {lane_of(x), lane_of(y), lane_of(z), lane_of(w)};
+}
 inline float4 varying4(float x, float y, float z, float w) {
     return {{x, true}, {y, true}, {z, true}, {w, true}};
 }
