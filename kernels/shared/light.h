@@ -19,9 +19,8 @@ namespace kilolux {
 // is a vector, which view space turns, w a number, which it keeps.
 #define LIGHT_ROWS(ROW) ROW(HAS_SPOT_LIGHTS, spot_lights, axis_cos)
 #define LIGHT_ROW(has, feature, member) float4 member;
-#define COUNT_LIGHT_ROW(has, feature, member) +1
 // float4 rows of a Light and of a ShadeLight.
-#define LIGHT_ROW_COUNT (2 LIGHT_ROWS(COUNT_LIGHT_ROW))
+#define LIGHT_ROW_COUNT 3
 
 // A point or spot light, camera-relative: world axes, camera at the origin.
 SHARED_STRUCT(Light) {

@@ -17,8 +17,10 @@ Tuning usable(Tuning tuning, const DeviceInfo& device) {
 
 // float4 rows of a StoredLight of kernels/device/stored_light.h.
 std::size_t stored_light_rows(const KernelFeatures& features) {
-#define COUNT_STORED_ROW(has, feature, member) +(features.feature ? 1u : 0u)
-    return 2u LIGHT_ROWS(COUNT_STORED_ROW);
+    std::size_t rows = 2;
+#define COUNT_STORED_ROW(has, feature, member) rows += features.feature ? 1 : 0;
+    LIGHT_ROWS(COUNT_STORED_ROW)
+    return rows;
 }
 
 }  // namespace
