@@ -24,21 +24,20 @@ struct PassCost {
 /// on; the scissor test then is still on.
 template <typename Draw>
 void draw_in_parts(int width, int height, const PassCost& cost, Draw draw) {
-    constexpr int kRows = 4, kColumns = 16;  // llvmpipe shades blocks of 4 x 4 pixels
+    constexpr int kTall = 4, kWide = 16;  // llvmpipe shades blocks of 4 x 4 pixels
     const double part_s = part_seconds();
     if (cost.expected_s <= part_s) return draw();
     const double all = static_cast<double>(width) * height;
     double wanted = std::max(cost.first_pixels, all * part_s / cost.expected_s);  // pixels
     glEnable(GL_SCISSOR_TEST);
     for (int row = 0, column = 0; row < height;) {
-        check_interrupt_at((static_cast<double>(row) + kRows * column / width) / height);
-        const double blocks = std::min(wanted, all) / (kRows * kColumns);
-        const int columns =
-            std::min(width - column, kColumns * std::max(static_cast<int>(blocks), 1));
+        check_interrupt_at((static_cast<double>(row) + kTall * column / width) / height);
+        const double blocks = std::min(wanted, all) / (kTall * kWide);
+        const int columns = std::min(width - column, kWide * std::max(static_cast<int>(blocks), 1));
         const int rows =
             column == 0
-                ? kRows * std::max(static_cast<int>(std::min(wanted, all) / (kRows * width)), 1)
-                : kRows;
+                ? kTall * std::max(static_cast<int>(std::min(wanted, all) / (kTall * width)), 1)
+                : kTall;
         const auto start = std::chrono::steady_clock::now();
         glScissor(column, row, columns, rows);
         draw();

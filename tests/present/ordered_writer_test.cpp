@@ -37,7 +37,7 @@ void finish(OrderedWriter& writer) {
 }
 
 TEST(OrderedWriter, WritesInOrderWhateverCodingTakes) {
-    for (const std::size_t most : {0, 1, 2, 8}) {
+    for (const std::size_t most : {0u, 1u, 2u, 8u}) {
         std::vector<std::size_t> out;
         OrderedWriter writer(most);
         for (std::size_t i = 0; i < kPictures; ++i) {
@@ -78,7 +78,7 @@ TEST(OrderedWriter, AFailureIsThrownAndNothingLaterIsWritten) {
     const OrderedWriter::Code writing = []() -> OrderedWriter::Write {
         return [] { throw Error("writing 7"); };
     };
-    for (const std::size_t most : {0, 3, 100}) {
+    for (const std::size_t most : {0u, 3u, 100u}) {
         std::vector<std::size_t> out;
         {
             OrderedWriter writer(most);

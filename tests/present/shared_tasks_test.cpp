@@ -18,7 +18,7 @@ TEST(SharedTasks, AreFinishedInOrder) {
     std::vector<std::size_t> finished;
     {
         std::vector<std::jthread> threads;
-        for (int t = 0; t < 4; ++t) {
+        for (std::size_t t = 0; t < 4; ++t) {
             threads.emplace_back([&, t] {
                 while (const auto task = tasks.take()) {
                     std::this_thread::sleep_for(milliseconds((*task * 7 + t) % 5));
