@@ -25,7 +25,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 FUZZ = ("tests/fuzz",)
 ALONE = ("present/cli", "present/commands", "present/image", "present/video")
 LIBRARIES = ("kernels/shared", "host", "present/cli", "present/image", "present/video", "present/commands")
-APART = ("kilolux_present.dir/", "_tests.dir/")
+APART = "_tests.dir/"  # files with macros of their own
 ALONE_HAS = "/kilolux_present.dir/"  # in the output of the unit whose options they get
 
 
@@ -74,9 +74,7 @@ def compile_targets(units):
     targets = collections.defaultdict(list)
     for unit in units:
         output = (unit.get("output") or unit["command"].split(" -o ")[1]).split()[0]
-        # Files of APART may have equal names in unnamed namespaces, and tests macros of their own.
-        is_apart = any(part in output for part in APART)
-        name = output if is_apart else output.split(".dir/")[0]
+        name = output if APART in output else output.split(".dir/")[0]
         targets[unit["directory"], name, tuple(clang_command(unit))].append(unit["file"])
     with tempfile.TemporaryDirectory() as folder:
 

@@ -15,6 +15,8 @@
 namespace kilolux {
 namespace {
 
+using Words = std::vector<std::string>;
+
 // A new member does not compile here: add a row below, then its name.
 void count_members(OutputOptions& options) {
     [[maybe_unused]] auto& [encoding, output, ocio, frames, frames_per_second, shard, crop, tiles,
@@ -41,7 +43,6 @@ std::string output_file(const std::string&, const std::string& text) {
 }
 
 void visit_encoding(const SettingVisitor& f, OutputOptions& o) {
-    using Words = std::vector<std::string>;
     Encoding& e = o.encoding;
     OptionBuilder(f, "Output")
         .value({"--output,-o", "FILE", "",

@@ -61,7 +61,7 @@ void add_frame(Json& out, const FrameRecord& record) {
     if (record.comparison) out["error"] = comparison_json(*record.comparison);
 }
 
-std::string text_of(const Json& json, int indent) {
+std::string printed(const Json& json, int indent) {
     return json.dump(indent, ' ', false, nlohmann::detail::error_handler_t::replace);
 }
 
@@ -114,7 +114,7 @@ FrameLog::FrameLog() : file_(std::tmpfile(), std::fclose) {
 void FrameLog::add(const FrameRecord& record) {
     Json entry{{"frame", record.frame}, {"time", record.time}, {"file", record.file}};
     add_frame(entry, record);
-    const std::string text = (empty_ ? "    " : ",\n    ") + text_of(entry, -1);
+    const std::string text = (empty_ ? "    " : ",\n    ") + printed(entry, -1);
     empty_ = false;
     if (std::fputs(text.c_str(), file_.get()) < 0) {
         fail_to_write(std::filesystem::temp_directory_path());
@@ -138,7 +138,7 @@ void write_json(const std::string& file, const Json& document, const FrameLog* f
         if (out) return out->write(text);
         if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) fail_to_print();
     };
-    std::string text = text_of(document, 2);
+    std::string text = printed(document, 2);
     if (frames != nullptr) {
         text.resize(text.size() - 2);  // "\n}"
         write(text + ",\n  \"frames\": [\n");

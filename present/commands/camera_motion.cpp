@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double number_of(const Json& value, const std::string& where) {
+double finite_number(const Json& value, const std::string& where) {
     if (!value.is_number() || !std::isfinite(value.get<double>())) {
         throw Error(fmt::format("{} is {}, must be a number", where, value.dump()));
     }
@@ -27,7 +27,7 @@ glm::dvec3 point_of(const Json& value, const std::string& where) {
         throw Error(fmt::format("{} is {}, must be [x, y, z]", where, value.dump()));
     }
     glm::dvec3 out;
-    for (int i = 0; i < 3; ++i) out[i] = number_of(value[static_cast<std::size_t>(i)], where);
+    for (int i = 0; i < 3; ++i) out[i] = finite_number(value[static_cast<std::size_t>(i)], where);
     return out;
 }
 
@@ -38,13 +38,13 @@ CameraKey key_of(const Json& json, const std::string& where, double angle) {
     for (const auto& [name, value] : json.items()) {
         const std::string member = where + ": " + name;
         if (name == "time") {
-            key.time = number_of(value, member);
+            key.time = finite_number(value, member);
         } else if (name == "position") {
             key.position = point_of(value, member);
         } else if (name == "focal_point") {
             key.focal_point = point_of(value, member);
         } else if (name == "angle") {
-            key.angle = number_of(value, member);
+            key.angle = finite_number(value, member);
             if (key.angle > 0.0 && key.angle < 180.0) continue;
             throw Error(fmt::format("{} is {}, must be above 0 and below 180", member, key.angle));
         } else {

@@ -18,7 +18,7 @@ namespace kilolux {
 namespace {
 
 // Few frames suffice: each is compared with one of the default setting beside it.
-constexpr BenchFrames kFrames = {1, 6};
+constexpr BenchFrames kTrialFrames = {1, 6};
 
 BudgetKey key_of(const SharedOptions& shared, const BudgetOptions& options,
                  const ErrorBudget& budget, const ReportView& view) {
@@ -63,7 +63,7 @@ BudgetChoice measure_choice(const SharedOptions& shared, const BudgetOptions& op
     // Settings over the budget are not timed.
     run.time_only(
         [&](const ReportRow& row) { return error_of(row, budget.metric) <= budget.max_error; });
-    return choose_within(run.measure(settings, kFrames), budget);
+    return choose_within(run.measure(settings, kTrialFrames), budget);
 }
 
 std::vector<std::string> metric_names() {

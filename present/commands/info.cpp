@@ -125,11 +125,11 @@ Json info_json(InfoOptions& options) {
 }
 
 // A short form for reading; --json has all digits.
-std::string text_of(const Json& value) {
+std::string shown_value(const Json& value) {
     if (value.is_string()) return value.get<std::string>();
     if (value.is_array()) {
         std::string out;
-        for (const Json& entry : value) out += (out.empty() ? "" : ", ") + text_of(entry);
+        for (const Json& entry : value) out += (out.empty() ? "" : ", ") + shown_value(entry);
         return out;
     }
     if (!value.is_number_float()) return value.dump();
@@ -157,10 +157,10 @@ std::string profile_line(const Json& profile) {
 std::string object_line(const Json& entry) {
     if (entry.contains("lumens")) return profile_line(entry);
     if (entry.contains("length_s")) return clip_line(entry);
-    std::string line = text_of(entry["name"]);
+    std::string line = shown_value(entry["name"]);
     if (!entry.contains("ms")) return line;
     line += fmt::format(": {:+} bytes per pixel, ", entry["bytes_per_pixel"].get<int>());
-    if (entry["ms"].is_null()) return line + text_of(entry["why"]);
+    if (entry["ms"].is_null()) return line + shown_value(entry["why"]);
     const double ms = entry["ms"], noise_ms = entry["noise_ms"];
     if (!entry["measurable"].get<bool>())
         return line + fmt::format("no measurable cost (noise {:.3f} ms)", noise_ms);
@@ -173,7 +173,7 @@ void add_lines(std::string& out, const Json& value, const std::string& indent) {
     for (const auto& [name, part] : value.items()) {
         const bool texts = part.is_array() && !part.empty() && !part.front().is_number();
         if (!part.is_object() && !texts) {
-            out += indent + name + ": " + text_of(part) + "\n";
+            out += indent + name + ": " + shown_value(part) + "\n";
             continue;
         }
         out += indent + name + ":\n";
@@ -182,8 +182,8 @@ void add_lines(std::string& out, const Json& value, const std::string& indent) {
             continue;
         }
         for (const Json& entry : part) {
-            out +=
-                indent + "  - " + (entry.is_object() ? object_line(entry) : text_of(entry)) + "\n";
+            out += indent + "  - " + (entry.is_object() ? object_line(entry) : shown_value(entry)) +
+                   "\n";
         }
     }
 }

@@ -14,13 +14,13 @@ constexpr std::size_t kCommentBytes = 100;
 constexpr const char* kComment = "# ";
 constexpr const char* kContinued = "#+";  // goes on with the comment before it
 
-std::string key_of(const std::string& name) { return "kilolux:" + name; }
+std::string attribute_name(const std::string& name) { return "kilolux:" + name; }
 
 // A line for each note.
-std::string text_of(const ImageNotes& notes) {
+std::string note_lines(const ImageNotes& notes) {
     std::string out;
     for (const auto& [name, text] : notes.strings) {
-        std::string line = key_of(name) + "=" + text;
+        std::string line = attribute_name(name) + "=" + text;
         std::ranges::replace(line, '\n', ' ');
         out += (out.empty() ? "" : "\n") + line;
     }
@@ -28,7 +28,7 @@ std::string text_of(const ImageNotes& notes) {
 }
 
 std::string note_in_text(const std::string& text, const std::string& name) {
-    const std::string start = key_of(name) + "=";
+    const std::string start = attribute_name(name) + "=";
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) {
         if (line.starts_with(start)) return line.substr(start.size());
@@ -55,26 +55,27 @@ std::string comments_in(const std::filesystem::path& file) {
 void add_notes(ImageLayout& layout, const ImageNotes& notes, NoteForm form) {
     if (form == NoteForm::attributes) {
         for (const auto& [name, text] : notes.strings) {
-            layout.attributes.emplace_back(key_of(name), text);
+            layout.attributes.emplace_back(attribute_name(name), text);
         }
     } else if (form == NoteForm::description && !notes.strings.empty()) {
-        layout.attributes.emplace_back("ImageDescription", text_of(notes));
+        layout.attributes.emplace_back("ImageDescription", note_lines(notes));
     }
 }
 
 void drop_note(ImageLayout& layout, const std::string& name) {
-    std::erase_if(layout.attributes, [&](const auto& a) { return a.first == key_of(name); });
+    std::erase_if(layout.attributes,
+                  [&](const auto& a) { return a.first == attribute_name(name); });
     for (auto& [attribute, value] : layout.attributes) {
         auto* text = std::get_if<std::string>(&value);
         if (attribute != "ImageDescription" || text == nullptr) continue;
-        const std::size_t at = text->find(fmt::format("\n{}=", key_of(name)));
+        const std::size_t at = text->find(fmt::format("\n{}=", attribute_name(name)));
         if (at != std::string::npos) text->erase(at, text->find('\n', at + 1) - at);
     }
 }
 
 void insert_comments(std::vector<unsigned char>& hdr, const ImageNotes& notes) {
     std::string comments;
-    std::istringstream lines(text_of(notes));
+    std::istringstream lines(note_lines(notes));
     for (std::string line; std::getline(lines, line);) {
         for (std::size_t i = 0; i < line.size(); i += kCommentBytes) {
             comments += (i == 0 ? kComment : kContinued) + line.substr(i, kCommentBytes) + "\n";
@@ -86,7 +87,8 @@ void insert_comments(std::vector<unsigned char>& hdr, const ImageNotes& notes) {
 std::string note_of_form(const std::filesystem::path& file, const ImageLayout& layout,
                          const std::string& name, NoteForm form) {
     if (form == NoteForm::comments) return note_in_text(comments_in(file), name);
-    const std::string key = form == NoteForm::attributes ? key_of(name) : "ImageDescription";
+    const std::string key =
+        form == NoteForm::attributes ? attribute_name(name) : "ImageDescription";
     for (const auto& [attribute, value] : layout.attributes) {
         if (attribute != key) continue;
         const auto* text = std::get_if<std::string>(&value);

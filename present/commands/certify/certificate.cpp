@@ -29,7 +29,7 @@ using Json = nlohmann::ordered_json;
 using Step = std::function<void()>;
 
 // A picture of a generated scene on a device. OpenCL draws its triangles: no OpenGL is needed.
-struct Picture {
+struct GeneratedPicture {
     const char* scene;
     int width, height;  // [pixel]
     std::uint64_t lights;
@@ -37,7 +37,7 @@ struct Picture {
     Shadows shadows = Shadows::off;
 };
 
-SharedOptions options_of(const Picture& picture, const cl::Device& device) {
+SharedOptions options_of(const GeneratedPicture& picture, const cl::Device& device) {
     SharedOptions options;
     options.scene = picture.scene;
     RenderSettings& s = options.settings;
@@ -54,12 +54,13 @@ SharedOptions options_of(const Picture& picture, const cl::Device& device) {
 }
 
 Json equality(const cl::Device& device, const Step& step) {
-    constexpr Picture kPictures[] = {{"atrium", 320, 180, 500, Shading::lambert},
-                                     {"atrium", 320, 180, 500, Shading::blinn_phong},
-                                     {"atrium", 320, 180, 500, Shading::pbr},
-                                     {"corridor", 320, 180, 200, Shading::pbr, Shadows::exact}};
+    constexpr GeneratedPicture kPictures[] = {
+        {"atrium", 320, 180, 500, Shading::lambert},
+        {"atrium", 320, 180, 500, Shading::blinn_phong},
+        {"atrium", 320, 180, 500, Shading::pbr},
+        {"corridor", 320, 180, 200, Shading::pbr, Shadows::exact}};
     Json out = {{"passed", true}, {"pictures", Json::array()}};
-    for (const Picture& picture : kPictures) {
+    for (const GeneratedPicture& picture : kPictures) {
         SharedOptions options = options_of(picture, device);
         const Scene scene = open_scene(options);
         const Camera camera = choose_camera(options, scene);
@@ -126,7 +127,7 @@ Json oclgrind(const cl::Device& device, const Step& step) {
 }
 
 Json stages(const cl::Device& device, const Step& step) {
-    constexpr Picture kFrame = {"atrium", 960, 540, 1000};
+    constexpr GeneratedPicture kFrame = {"atrium", 960, 540, 1000};
     constexpr BenchFrames kFrames = {.warm_up = 5, .measured = 20};
     SharedOptions options = options_of(kFrame, device);
     const Scene scene = open_scene(options);

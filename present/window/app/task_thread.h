@@ -67,9 +67,9 @@ class TaskThread {
 
     template <typename Work>
     static auto packaged(Work work) {
-        using Result = std::invoke_result_t<Work>;
-        auto task = std::make_shared<std::packaged_task<Result()>>(std::move(work));
-        std::future<Result> result = task->get_future();
+        using Answer = std::invoke_result_t<Work>;
+        auto task = std::make_shared<std::packaged_task<Answer()>>(std::move(work));
+        std::future<Answer> result = task->get_future();
         return std::pair{Call([task] { (*task)(); }), std::move(result)};
     }
     void push(Task task);

@@ -30,13 +30,13 @@ void load_font(float scale) {
     fonts.AddFontDefault(&config);
 }
 
-struct Shade {
+struct ThemeColor {
     ImGuiCol_ color;
     float value;
     float alpha;
 };
 
-constexpr Shade kGrays[] = {
+constexpr ThemeColor kGrays[] = {
     {ImGuiCol_WindowBg, 0.085f, 0.97f},     {ImGuiCol_PopupBg, 0.10f, 0.98f},
     {ImGuiCol_Border, 0.24f, 0.6f},         {ImGuiCol_FrameBg, 0.17f, 1.0f},
     {ImGuiCol_FrameBgHovered, 0.23f, 1.0f}, {ImGuiCol_FrameBgActive, 0.27f, 1.0f},
@@ -44,13 +44,13 @@ constexpr Shade kGrays[] = {
     {ImGuiCol_HeaderActive, 0.30f, 1.0f},   {ImGuiCol_Button, 0.24f, 1.0f},
     {ImGuiCol_ScrollbarBg, 0.06f, 0.4f},    {ImGuiCol_Separator, 0.28f, 0.8f}};
 
-constexpr Shade kAmbers[] = {{ImGuiCol_ButtonHovered, 0.62f, 1.0f},
-                             {ImGuiCol_ButtonActive, 0.8f, 1.0f},
-                             // A slider's grip is under white digits.
-                             {ImGuiCol_SliderGrab, 0.48f, 1.0f},
-                             {ImGuiCol_SliderGrabActive, 0.56f, 1.0f},
-                             {ImGuiCol_CheckMark, 1.0f, 1.0f},
-                             {ImGuiCol_PlotHistogram, 0.9f, 1.0f}};
+constexpr ThemeColor kAmbers[] = {{ImGuiCol_ButtonHovered, 0.62f, 1.0f},
+                                  {ImGuiCol_ButtonActive, 0.8f, 1.0f},
+                                  // A slider's grip is under white digits.
+                                  {ImGuiCol_SliderGrab, 0.48f, 1.0f},
+                                  {ImGuiCol_SliderGrabActive, 0.56f, 1.0f},
+                                  {ImGuiCol_CheckMark, 1.0f, 1.0f},
+                                  {ImGuiCol_PlotHistogram, 0.9f, 1.0f}};
 
 void set_colors() {
     ImGui::StyleColorsDark();
