@@ -50,7 +50,7 @@ class Merge : public testing::Test {
             EXPECT_EQ(result.code, 0) << result.err;
             EXPECT_TRUE(contains(result.err, note)) << result.err;
         }
-        fs::copy(made, results_ / name, fs::copy_options::recursive);
+        fs::copy(made, results_ / name, kOver);
         return name;
     }
 
