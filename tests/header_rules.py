@@ -11,7 +11,6 @@ from pathlib import Path
 
 ROOMS = ("host", "raster", "present")
 APART = ("host/example/", "host/install/")  # not part of the program
-SPREAD = "present/window/app/session"  # ViewSession: the files that begin with this define its functions
 NO_NAME = {"if", "for", "while", "switch", "return", "catch", "static_assert", "requires", "decltype", "alignas", "noexcept"}
 
 
@@ -87,8 +86,7 @@ def strays(root):
                 defined.append((function, name))
     for function, file in defined:
         own = re.sub("cpp$", "h", file)
-        spread = file.startswith(SPREAD) and declared.get(function) == {SPREAD + ".h"}
-        if function in declared and own not in declared[function] and not spread:
+        if function in declared and own not in declared[function]:
             yield f"{file}: defines {function}() of {', '.join(sorted(declared[function]))}"
 
 

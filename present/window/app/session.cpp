@@ -2,13 +2,20 @@
 #include "present/window/app/session.h"
 
 #include <epoxy/gl.h>
+#include <fmt/format.h>
+#include <imgui.h>
 
 #include <algorithm>
 #include <utility>
 
 #include "host/base/error.h"
 #include "host/base/system/interrupt.h"
+#include "present/cli/names.h"
 #include "present/cli/scene_choice.h"
+#include "present/window/app/command_text.h"
+#include "present/window/panel/key_bindings.h"
+#include "present/window/panel/panel_settings.h"
+#include "present/window/panel/panel_stats.h"
 #include "raster/gl_context.h"
 
 namespace kilolux {
@@ -26,172 +33,289 @@ ViewSession::ViewSession(AnimatedScene& scene, SessionOptions options, StateFile
     : scene_(scene.scene()),
       options_(std::move(options)),
       file_(file),
-      window_(window),
       state_(options_.state),
-      rig_(choose_camera(options_.shared, scene_), bounds(scene_)),
-      time_(options_.shared.time),
-      gui_(window),
-      scale_(state_.target_ms),
+      frames_(window,
+              options_.script.empty() ? std::nullopt : std::optional(ScriptPlayer::kFrameSeconds)),
+      steering_({choose_camera(options_.shared, scene_), bounds(scene_)}, frames_,
+                options_.script.empty()),
       lights_(scene, std::move(options_.asked), options_.shared, state_.rig),
+      pictures_(state_, frames_, steering_.rig(), lights_, options_.shared.time,
+                options_.exit_after > 0),
       facts_{.scene = scene_,
              .has_unranged_lights = std::ranges::any_of(scene_.lights, lacks_range),
              .triangles = triangle_count(scene_),
              .opengl = gl_string(GL_RENDERER) + ", " + gl_string(GL_VERSION),
              .error = error_} {
-    window_.on_event([this](const InputEvent& event) { events_.post(event); });
     worker_ = std::make_unique<RenderWorker>(
-        scene_, wanted().settings,
+        scene_, pictures_.wanted().settings,
         [&context](bool use) { use ? context.make_current() : Window::make_none_current(); },
-        [this] { wake(); });
+        [this] { frames_.wake(); });
     if (!options_.script.empty()) {
         script_ = std::make_unique<ScriptPlayer>(
             options_.script,
-            ScriptStage{window_, ui_, [this] { return picture_state(); },
-                        [this](const std::filesystem::path& out) { save_window(out); }});
+            ScriptStage{window, frames_.ui(), [this] { return picture_state(); },
+                        [this](const std::filesystem::path& out) { frames_.save(out); }});
     }
-}
-
-ViewSession::~ViewSession() {
-    window_.on_event({});
-    worker_.reset();
 }
 
 void ViewSession::run() {
-    while (!window_.should_close()) {
+    while (!frames_.window().should_close()) {
         check_interrupt();
         worker_->check_begun();
-        wait();
+        begin_frame();
         take_results();
         obey_input();
-        const bool draws = frames_to_draw_ > 0 || script_;
+        const bool draws = frames_.is_drawn_soon() || script_;
         if (draws) describe();
         request_picture();
-        if (draws) paint();
-        input_.end_frame();
-        if (options_.exit_after > 0 && pictures_.shown() >= options_.exit_after) break;
+        if (draws) frames_.paint(state_.vsync);
+        frames_.end();
+        if (options_.exit_after > 0 && pictures_.queue().shown() >= options_.exit_after) break;
         if (script_ && script_->is_done()) break;
     }
-    if (!options_.screenshot.empty()) save_window(options_.screenshot);
+    if (!options_.screenshot.empty()) frames_.save(options_.screenshot);
     remember_size();
     file_.save(state_);
 }
 
 bool ViewSession::stop() {
-    window_.hide();
+    frames_.window().hide();
     return worker_->stop(kStopPatience);
-}
-
-void ViewSession::redraw_soon(int frames) { frames_to_draw_ = std::max(frames_to_draw_, frames); }
-
-void ViewSession::wake() {
-    woken_ = true;
-    wake_windows();
 }
 
 // How long the loop may sleep while no event comes [s].
 double ViewSession::wait_seconds() {
     if (script_) return script_->is_waiting() ? 0.01 : 0.0;
     if (is_resting()) return kIdleSeconds;
-    const bool moves = camera_motion().any() || state_.lights_move || pictures_.is_moving();
-    if (moves || frames_to_draw_ > 0 || !events_.empty()) return FrameClock::kUsualSeconds;
+    const bool moves = steering_.is_moving(state_.camera_mode) || state_.lights_move ||
+                       pictures_.queue().is_moving();
+    if (moves || frames_.is_drawn_soon() || frames_.has_events()) return FrameClock::kUsualSeconds;
     return is_busy() ? kBusySeconds : kIdleSeconds;
 }
 
-void ViewSession::wait() {
-    const double seconds = wait_seconds();
-    clock_.end_frame();
-    window_.wait_events(seconds);
-    if (script_) script_->advance();
-    clock_.begin_frame(seconds,
-                       script_ ? std::optional(ScriptPlayer::kFrameSeconds) : std::nullopt);
-    for (const InputEvent& event : events_.take(script_ ? 0.0 : clock_.busy_seconds())) {
-        input_.take(event);
-        gui_.take(event);
-        redraw_soon(4);  // the panel needs some frames until its layout is final
-    }
+void ViewSession::begin_frame() {
+    frames_.begin(wait_seconds(), [this] {
+        if (script_) script_->advance();
+    });
     if (!script_) {
         remember_size();
-        file_.keep(state_, clock_.now());
+        file_.keep(state_, frames_.clock().now());
     }
-    if (woken_.exchange(false)) redraw_soon();
-    if (notice_.fade(clock_.now())) redraw_soon(1);
-    const std::string waiting = waiting_line();
-    if (std::exchange(waiting_, waiting) != waiting) redraw_soon(1);
+    if (messages_.update(waiting_line(), frames_.clock().now())) frames_.redraw_soon(1);
 }
 
 void ViewSession::remember_size() {
-    const auto size = window_.size_to_keep();
+    const auto size = frames_.window().size_to_keep();
     state_.window_size = {std::max(size[0], kSmallestKept), std::max(size[1], kSmallestKept)};
 }
 
 void ViewSession::take_results() {
     const OnFailure failed = [this](const std::string& what) { fail(what); };
-    pictures_.take({[this](const PictureRequest& request, Picture picture) {
-                        take_picture(request, std::move(picture));
-                    },
-                    [this](const PictureRequest& request, double seconds) {
-                        const double edge = std::max(area().width, 1);
-                        scale_.picture_would_take(1e3 * seconds, request.settings.width / edge);
-                    },
-                    failed});
+    pictures_.take([this](const PictureRequest& request, const Picture& picture,
+                          double scale) { take_picture(request, picture, scale); },
+                   failed);
     limits_.take([this](const DeviceLimits& limits) { facts_.limits = limits; }, failed);
     lights_.take(state_, failed);
     if (!lights_.are_changing()) obey_actions(std::exchange(held_back_, {}));
     // After these the renderer's last picture is not the window's.
-    if (error_.take(failed)) pictures_.forget_request();
-    for (auto& saving : saving_) {
-        saving.take(
-            [this](const std::string& what) {
-                notice_.show(what, clock_.now());
-                pictures_.forget_request();
-            },
-            failed);
-    }
-    std::erase_if(saving_, [](const auto& saving) { return !saving.is_open(); });
+    if (error_.take(failed)) pictures_.queue().forget_request();
+    saving_.take(
+        [this](const std::string& what) {
+            messages_.show(what, frames_.clock().now());
+            pictures_.queue().forget_request();
+        },
+        failed);
     clusters_.take(state_, failed);
+}
+
+void ViewSession::take_picture(const PictureRequest& request, const Picture& picture,
+                               double scale) {
+    if (pictures_.queue().shown() == 1) {
+        limits_ = Awaited(
+            worker_->ask([](Renderer& renderer) { return cached_device_limits(renderer.gpu()); }));
+    }
+    facts_.note_picture(request, picture, scale);
+    clusters_.take_depths(picture.frame);
+}
+
+void ViewSession::obey_input() {
+    steering_.steer(state_.camera_mode);
+    if (frames_.gui().wants_keys()) return;
+    for (const KeyEvent& key : frames_.input().pressed()) obey_actions(obey_key(key, state_));
+}
+
+void ViewSession::request_picture() {
+    if (is_resting()) return;
+    if (!lights_.fit(state_) && !lights_.are_changing()) {
+        lights_.replace(*worker_, state_, pictures_.wanted().settings);
+    }
+    // Its settings belong to lights that may not be there yet.
+    if (!lights_.are_changing()) pictures_.request(*worker_);
 }
 
 void ViewSession::fail(const std::string& what) {
     // A script ends with the message; without one the window shows it.
     if (script_) throw Error(what);
-    failure_ = what;
-    redraw_soon();
+    messages_.fail(what);
+    frames_.redraw_soon();
 }
 
 // Minimised, and no script or --exit-after waits for pictures.
 bool ViewSession::is_resting() const {
-    return window_.is_minimised() && !script_ && options_.exit_after == 0;
+    return frames_.window().is_minimised() && !script_ && options_.exit_after == 0;
 }
 
-// Whether a task or a picture is under way; where pictures never end, they do not count.
 bool ViewSession::is_busy() const {
     return limits_.is_open() || clusters_.is_open() || error_.is_open() || lights_.are_changing() ||
-           !saving_.empty() || (!renders_always() && pictures_.is_busy());
+           saving_.are_open() || pictures_.are_busy();
 }
 
 // Whether the last picture is the wanted one, in full size, and no task is left.
 PictureState ViewSession::picture_state() const {
     if (state_.lights_move) return PictureState::endless;
-    const bool shown = !pictures_.is_moving() && pictures_.has_finished(wanted());
-    return shown && !is_busy() ? PictureState::complete : PictureState::pending;
+    return pictures_.are_complete() && !is_busy() ? PictureState::complete : PictureState::pending;
 }
 
-void ViewSession::paint() {
-    if (frames_to_draw_ > 0) --frames_to_draw_;
-    window_.set_vsync(state_.vsync);
-    if (window_.is_minimised()) return gui_.skip();
-    draw();
-    window_.swap();
+void ViewSession::obey_actions(Actions actions) {
+    if (lights_.are_changing()) hold_back(actions);
+    Window& window = frames_.window();
+    const auto save = [this](const char* extension) {
+        saving_.begin(*worker_, pictures_.wanted_whole(), lights_.options(), extension);
+    };
+    if (actions.reset_camera) steering_.rig().set(choose_camera(lights_.options(), scene_));
+    if (actions.frame_scene) steering_.rig().frame();
+    if (actions.scene_camera) {
+        steering_.rig().set(
+            camera_of(scene_.cameras.at(static_cast<std::size_t>(*actions.scene_camera))));
+    }
+    if (actions.copy_camera) copy(camera_options(steering_.rig(), lights_.options(), scene_));
+    if (actions.copy_command) copy(command());
+    if (actions.measure_error)
+        error_.begin(*worker_, pictures_.wanted(), [this] { frames_.wake(); });
+    if (actions.save_png) save(".png");
+    if (actions.save_exr) save(".exr");
+    if (actions.help) messages_.show_help(!messages_.shows_help());
+    if (actions.close_help) messages_.show_help(false);
+    if (actions.dismiss_failure) messages_.dismiss_failure();
+    if (actions.reset_settings) reset_settings();
+    if (actions.full_screen) window.set_full_screen(!window.is_full_screen());
+    if (actions.close) window.close();
 }
 
-void ViewSession::draw() {
-    const auto pixels = window_.framebuffer();
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-    glViewport(0, 0, pixels[0], pixels[1]);
-    glClearColor(0.04f, 0.04f, 0.045f, 1.0f);
-    glClear(GL_COLOR_BUFFER_BIT);
-    gui_.draw();
-    check_gl_errors("window");
+// Holds back actions that need the picture's settings, which belong to lights that are not there
+// yet.
+void ViewSession::hold_back(Actions& actions) {
+    for (bool Actions::*action : {&Actions::measure_error, &Actions::save_png, &Actions::save_exr,
+                                  &Actions::copy_command}) {
+        held_back_.*action |= std::exchange(actions.*action, false);
+    }
+}
+
+// Restores the program's defaults, without the command line's values; the device is fixed for the
+// run.
+void ViewSession::reset_settings() {
+    ViewState fresh;
+    fresh.settings = SharedOptions().settings;
+    fresh.settings.samples = kRestSamples;
+    fresh.settings.device = state_.settings.device;
+    fresh.settings.background = lights_.options().shown_background;
+    fresh.settings.reflections = lights_.options().maps;
+    fresh.window_size = state_.window_size;
+    state_ = std::move(fresh);
+    lights_.forget_command_line(state_.settings);
+    lights_.replace(*worker_, state_, pictures_.wanted().settings);
+    file_.forget();
+}
+
+void ViewSession::copy(const std::string& text) {
+    frames_.window().set_clipboard(text);
+    messages_.show("copied: " + text, frames_.clock().now());
+    frames_.redraw_soon();
+}
+
+std::string ViewSession::command() const {
+    SharedOptions options = lights_.options();
+    const PictureRequest whole = pictures_.wanted_whole();
+    options.settings = whole.settings;
+    options.time = whole.time;
+    return render_command(steering_.rig(), options, scene_);
+}
+
+// The line about a picture that takes long; empty: none.
+std::string ViewSession::waiting_line() const {
+    const PictureProgress* progress = pictures_.queue().progress();
+    if (progress == nullptr) return "";
+    return waiting_text(state_.settings.renderer, progress->seconds(), progress->estimate());
+}
+
+void ViewSession::describe() {
+    frames_.describe();
+    Actions actions;
+    describe_picture(pictures_.place());
+    const ShownPicture picture = pictures_.shown();
+    clusters_.ask(*worker_, state_, picture);
+    clusters_.describe(state_, picture);
+    if (state_.show_panel) describe_panel(actions);
+    if (state_.show_overlay) {
+        describe_overlay(overlay_lines(), messages_.notice(), picture.place, picture.scale);
+    }
+    actions.dismiss_failure |= messages_.describe(frames_.ui(), picture.place, picture.scale);
+    frames_.ui().end_frame();
+    obey_actions(actions);
+}
+
+void ViewSession::describe_picture(const ScreenPlace& at) {
+    const PictureBuffers& buffers = pictures_.queue().buffers();
+    if (buffers.width() == 0) return;
+    const GLuint map = state_.error_map ? error_.map_of(pictures_.wanted()) : 0;
+    const GLuint name = map != 0 ? map : buffers.texture();
+    // Dear ImGui passes names of textures as pointers. NOLINTNEXTLINE(performance-no-int-to-ptr)
+    const auto texture = reinterpret_cast<ImTextureID>(std::uintptr_t{name});
+    ImGui::GetBackgroundDrawList()->AddImage(texture, {at.x0, at.y0}, {at.x1, at.y1});
+}
+
+void ViewSession::describe_panel(Actions& actions) {
+    ImGui::SetNextWindowPos({0.0f, 0.0f});
+    ImGui::SetNextWindowSize({pictures_.panel_width(), pictures_.place().y1});
+    ImGui::Begin("panel", nullptr, kPinned);
+    frames_.ui().set_label_width(frames_.gui().scaled(104.0f));
+    facts_.boxes = clusters_.box_count();
+    const PanelSettings settings{{frames_.ui(), state_, actions, facts_}};
+    const PanelStats stats{settings};
+    settings.picture();
+    settings.lights();
+    stats.speed();
+    settings.clusters();
+    settings.camera(steering_.rig());
+    stats.error();
+    settings.window();
+    stats.device();
+    ImGui::End();
+}
+
+std::vector<std::string> ViewSession::overlay_lines() const {
+    std::vector<std::string> out;
+    const RenderSettings& asked = facts_.displayed;
+    if (pictures_.queue().shown() == 0) {
+        out.emplace_back("compiling kernels and shaders ...");
+    } else {
+        const double ms = facts_.history.median_frame_ms();
+        out.push_back(fmt::format("{:.1f} ms  {:.0f}/s", ms, 1000.0 / std::max(ms, 1e-3)));
+        out.push_back(fmt::format("{} x {} at {:.2f}", asked.width, asked.height, facts_.scale));
+        if (asked.samples > 1) {
+            out.push_back(fmt::format("{} of {} samples", facts_.samples, asked.samples));
+        }
+        out.push_back(fmt::format("{}  {} lights", name_of(asked.renderer),
+                                  short_count(facts_.stats.lights_used)));
+    }
+    if (!messages_.waiting().empty()) out.push_back(messages_.waiting());
+    if (state_.frozen) {
+        out.push_back(fmt::format("frozen: {} clusters", short_count(clusters_.box_count())));
+    }
+    if (error_.is_open()) {
+        out.push_back(fmt::format("error: {:.0f} % measured", 100.0f * error_.share()));
+    }
+    return out;
 }
 
 }  // namespace kilolux

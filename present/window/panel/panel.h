@@ -33,6 +33,9 @@ struct PanelFacts {
     std::uint64_t process_bytes = 0;  // resident
     std::size_t boxes = 0;            // frozen clusters drawn
     const ErrorMeasurement& error;
+
+    /// Notes a picture that is shown at `scale` of its place's edges.
+    void note_picture(const PictureRequest& request, const Picture& picture, double scale_now);
 };
 
 /// The actions that input asks for in one frame.

@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "present/window/panel/key_bindings.h"
+
 #include <GLFW/glfw3.h>
-#include <algorithm>
 
 #include "host/picture/views.h"
-#include "present/window/app/session.h"
 
 namespace kilolux {
 namespace {
-
-constexpr std::size_t kLeft = GLFW_MOUSE_BUTTON_LEFT;
-constexpr std::size_t kRight = GLFW_MOUSE_BUTTON_RIGHT;
-constexpr std::size_t kMiddle = GLFW_MOUSE_BUTTON_MIDDLE;
-
-double held(const InputState& input, int plus, int minus) {
-    return (input.is_down(plus) ? 1.0 : 0.0) - (input.is_down(minus) ? 1.0 : 0.0);
-}
 
 CameraMode opposite(CameraMode mode) {
     return mode == CameraMode::fly ? CameraMode::orbit : CameraMode::fly;
@@ -61,53 +53,16 @@ constexpr KeyBinding kBindings[] = {
 
 }  // namespace
 
-CameraInput ViewSession::camera_motion() {
-    CameraInput motion;
-    if (!gui_.wants_keys() && !input_.is_control_down()) {
-        motion.move = {held(input_, GLFW_KEY_D, GLFW_KEY_A), held(input_, GLFW_KEY_E, GLFW_KEY_Q),
-                       held(input_, GLFW_KEY_W, GLFW_KEY_S)};
-    }
-    motion.faster = input_.is_shift_down();
-    motion.slower = input_.is_alt_down();
-    if (!gui_.wants_mouse()) motion.wheel = input_.wheel();
-    if (!dragging_) return motion;
-    const double height = std::max(window_.size()[1], 1);
-    const glm::dvec2 dragged(input_.motion().x / height, input_.motion().y / height);
-    const bool pans = input_.was_button_down(kRight) || input_.was_button_down(kMiddle);
-    (state_.camera_mode == CameraMode::orbit && pans ? motion.pan : motion.look) = dragged;
-    return motion;
-}
-
-void ViewSession::steer() {
-    const bool pressed = input_.was_button_down(kLeft) || input_.was_button_down(kRight) ||
-                         input_.was_button_down(kMiddle);
-    const bool begins = pressed && !dragging_ && !gui_.wants_mouse();
-    if (begins) dragging_ = true;
-    // While the camera flies, the screen's edges do not stop the mouse.
-    if (begins && !script_ && state_.camera_mode == CameraMode::fly) window_.grab_mouse(true);
-    rig_.move(camera_motion(), state_.camera_mode, clock_.frame_seconds());
-    if (dragging_ && !pressed) {
-        dragging_ = false;
-        if (!script_) window_.grab_mouse(false);
-    }
-}
-
-void ViewSession::obey_input() {
-    steer();
-    if (gui_.wants_keys()) return;
-    for (const KeyEvent& key : input_.pressed()) obey_key(key);
-}
-
-void ViewSession::obey_key(const KeyEvent& key) {
+Actions obey_key(const KeyEvent& key, ViewState& state) {
     if (key.key >= GLFW_KEY_1 && key.key <= GLFW_KEY_4) {
-        state_.settings.renderer = static_cast<RendererKind>(key.key - GLFW_KEY_1);
+        state.settings.renderer = static_cast<RendererKind>(key.key - GLFW_KEY_1);
     }
     Actions actions;
     for (const KeyBinding& binding : kBindings) {
         const bool held = (key.modifiers & (kShift | kControl)) == binding.modifiers;
-        if (binding.key == key.key && held) binding.act(state_, actions);
+        if (binding.key == key.key && held) binding.act(state, actions);
     }
-    obey_actions(actions);
+    return actions;
 }
 
 }  // namespace kilolux
