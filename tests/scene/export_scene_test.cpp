@@ -75,7 +75,7 @@ TEST(ExportScene, KeepsWhatTheLoaderMadeOfAFile) {
 TEST(ExportScene, WritesOnlyConesThatTheExtensionAllows) {
     for (const auto& [inner, outer] : {std::pair{5.0f, 4.0f}, {0.5f, 0.5f}, {-1.0f, 0.5f}}) {
         Scene scene = make_generated_scene("grid");
-        SceneLight spot{.type = LightType::spot, .intensity = glm::vec3(1)};
+        SceneLight spot{.intensity = glm::vec3(1), .type = LightType::spot};
         spot.inner_cone = inner;
         spot.outer_cone = outer;
         scene.lights = {spot};
