@@ -11,6 +11,19 @@
 namespace kilolux {
 namespace {
 
+// Drivers whose own declarations of built-in functions are left out for pocl_builtins.h: those with
+// which it was tried.
+bool takes_our_declarations(const DeviceInfo& device) {
+    return device.platform == "Portable Computing Language" && device.driver.starts_with("3.1");
+}
+
+// What begins a program on this device.
+std::string prologue(const DeviceInfo& device) {
+    const std::string all(kKernelPrologue);
+    if (!takes_our_declarations(device)) return all;
+    return splice_source("kernels/device/pocl_builtins.h", false).text + all;
+}
+
 std::string build_log(const cl::Program& program, const cl::Device& device) {
     try {
         return program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device);
@@ -63,9 +76,10 @@ KernelProgram build_text(const Gpu& gpu, const std::string& name, std::string_vi
                          const BuildOptions& options) {
     const std::string all_options =
         "-cl-std=CL1.2 -Werror -DVW=" + std::to_string(gpu.info.lane_width) +
+        (takes_our_declarations(gpu.info) ? " -D_OPENCL_H_" : "") +
         (gpu.checks_arguments ? " -cl-kernel-arg-info" : "") + (options.text().empty() ? "" : " ") +
         options.text();
-    const std::string source = std::string(kKernelPrologue) + std::string(text);
+    const std::string source = prologue(gpu.info) + std::string(text);
     return gpu.programs->find(all_options + "\n" + source, [&] {
         check_interrupt();
         detail("building " + name + " " + all_options);
