@@ -9,6 +9,7 @@
 #include "host/scene/generated/scenes.h"
 #include "host/scene/lights/light_generator.h"
 #include "host/scene/lights/light_kinds.h"
+#include "host/scene/lights/rig.h"
 #include "tests/scene/export_scenes.h"
 #include "tests/support/gltf_seeds.h"
 #include "tests/support/paths.h"
@@ -70,6 +71,17 @@ TEST(ExportScene, KeepsWhatTheLoaderMadeOfAFile) {
     EXPECT_EQ(triangle_count(scene), 3u * 2u + 8u * (6u + 3u + 6u + 5u));
     EXPECT_EQ(scene.meshes.at(0).material, 1);
     EXPECT_EQ(scene_difference(scene, round_trip(scene, "x.glb")), "");
+}
+
+// As the export command places it.
+TEST(ExportScene, ALightThatFollowsTheCameraTurnsWithIt) {
+    SceneLight light;
+    light.follows_camera = true;
+    const glm::dmat3 quarter({0, 1, 0}, {-1, 0, 0}, {0, 0, 1});  // about +Z
+    light = placed_light(light, quarter, {1, 2, 3});
+    EXPECT_EQ(light.position, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(light.direction, glm::dvec3(0, 0, -1));
+    EXPECT_EQ(light.side, glm::dvec3(0, 1, 0));
 }
 
 TEST(ExportScene, WritesOnlyConesThatTheExtensionAllows) {
