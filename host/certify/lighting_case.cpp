@@ -28,11 +28,9 @@ void put_surface(Synthetic& image, uint x, uint y, const SurfaceSample& s) {
     image.put(PLANE_DEPTH, pixel, depth01_of(image.view, x, y, -s.position.z));
     image.put(PLANE_POSITION_X, pixel, s.position);
     image.put(PLANE_NORMAL_X, pixel, s.normal);
-    image.put(PLANE_ALBEDO_R, pixel, s.albedo);
-    image.put(PLANE_EMISSIVE_R, pixel, s.emissive);
-    image.put(PLANE_ROUGHNESS, pixel, s.roughness);
-    image.put(PLANE_METALLIC, pixel, s.metallic);
-    image.put(PLANE_OCCLUSION_F, pixel, s.occlusion);
+#define PUT_VALUE(has, member, decoded, plane, value) image.put(plane, pixel, s.member);
+    SURFACE_VALUES(PUT_VALUE, PUT_VALUE)
+#undef PUT_VALUE
 }
 
 // How far a position lies from its pixel's ray at its depth, along an axis.
@@ -54,7 +52,7 @@ LightingCase noise_case(const ViewShape& shape, const DepthOf& depth,
 KernelFeatures every_feature(int shading) {
     KernelFeatures features;
     features.shading = shading;
-    features.material = features.metallic = features.occlusion = true;
+    features.material = features.metallic = features.occlusion = features.specular = true;
     features.spot_lights = features.directional_lights = true;
     return features;
 }
@@ -89,9 +87,7 @@ LightingCase surface_case(std::span<const SurfaceSample> surfaces, int shading, 
     input.features.gbuffer = GBUFFER_FULL;
     input.features.directional_lights = false;
     input.features.light_index_bits = 32;
-    GBufferNeeds needs;
-    needs.layout = GBUFFER_FULL;
-    needs.material = needs.occlusion = true;
+    const GBufferNeeds needs{input.features, GBUFFER_FULL, 1.0f};
     input.image = {view, make_gbuffer_layout(needs, view.stride, view.height), {}};
     input.image.bytes.resize(gbuffer_bytes(input.image.layout, view.stride, view.height));
     double pad = 0.0;

@@ -28,7 +28,7 @@ struct LightingCase {
 LightingCase noise_case(const ViewShape& shape, const DepthOf& depth,
                         const KernelFeatures& features = {});
 
-/// Every feature: any light, metals, emission and occlusion.
+/// Every feature: any light, metals, emission, occlusion and what dielectrics reflect.
 KernelFeatures every_feature(int shading);
 
 /// Leaves light from lights only: no ambient, no emission. The case has a material plane.
@@ -39,7 +39,7 @@ SurfaceSample grey_surface(const glm::dvec3& position, const glm::dvec3& normal 
 
 /// A case whose pixels show `surfaces` exactly (float32), row by row, `width` a row; the rest of
 /// the last row is background. Positions need not lie on their pixels' rays: the grid's pad covers
-/// the distance. Layout `full` with material and occlusion planes; view space is world space.
+/// the distance. Layout `full` with all planes; view space is world space.
 LightingCase surface_case(std::span<const SurfaceSample> surfaces, int shading, uint width = 16);
 
 /// The device's results for a case.

@@ -104,28 +104,29 @@ struct Instance {
     bool operator==(const Instance&) const = default;
 };
 
-enum class LightType { point, spot, directional };
+enum class LightType : std::uint8_t { point, spot, directional };
 
 struct SceneLight {
-    LightType type = LightType::point;
-    glm::dvec3 position{0.0};          // [m], world
-    glm::dvec3 direction{0, 0, -1};    // unit, the way the light travels (spot, directional)
-    glm::vec3 intensity{1.0f};         // linear Rec. 709; [cd], directional [lx]
-    float range = 0.0f;                // [m]; 0: not given, see light_ranges.h
-    float inner_cone = 0.0f;           // half angle [rad]
+    glm::dvec3 position{0.0};        // [m], world
+    glm::dvec3 direction{0, 0, -1};  // unit, the way the light travels (spot, directional)
+    glm::dvec3 side{1, 0, 0};        // unit, across the direction: how the light is turned about it
+    glm::vec3 intensity{1.0f};       // linear Rec. 709; [cd], directional [lx]
+    float range = 0.0f;              // [m]; 0: not given, see light_ranges.h
+    float inner_cone = 0.0f;         // half angle [rad]
     float outer_cone = 0.7853981634f;  // half angle [rad]
-    bool has_own_range = true;         // false: fill_missing_ranges() set it, see light_ranges.h
-    bool follows_camera = false;       // position and direction are in the camera's space
     int profile = -1;                  // index into Scene::aimed_profiles; -1: none
+    LightType type = LightType::point;
+    bool has_own_range = true;    // false: fill_missing_ranges() set it, see light_ranges.h
+    bool follows_camera = false;  // position and direction are in the camera's space
     bool operator==(const SceneLight&) const = default;
 };
 
 /// A light's photometric web: its vertical angle 0 is along the light's direction, whatever its
-/// type, and its peak has the light's intensity.
+/// type, its vertical angle 90 and horizontal angle 0 along the side, and its peak has the light's
+/// intensity.
 struct SceneProfile {
-    std::size_t web = 0;       // index into Scene::webs
-    glm::dvec3 side{1, 0, 0};  // unit, across the direction: vertical 90, horizontal 0 degrees
-    bool mirrored = false;     // horizontal angles turn the other way
+    std::size_t web = 0;    // index into Scene::webs
+    bool mirrored = false;  // horizontal angles turn the other way
     bool operator==(const SceneProfile&) const = default;
 };
 

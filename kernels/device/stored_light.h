@@ -8,9 +8,6 @@
 #ifndef HALF_LIGHT_COLORS
 #define HALF_LIGHT_COLORS 0
 #endif
-#ifndef HAS_SPOT_LIGHTS
-#define HAS_SPOT_LIGHTS 0
-#endif
 
 #if HALF_LIGHT_COLORS
 // Rows that the scene lacks are not stored.

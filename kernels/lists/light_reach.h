@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Does a light reach a box? The one test of culling, refinement and the brute-force oracle.
+// Where a light reaches, and where its shadow rays go. Lists and shadows ask this text alone: a
+// kind that does not fill the sphere of its range, or has a size, has its case here.
 #ifndef KILOLUX_DEVICE_LIGHT_REACH_H
 #define KILOLUX_DEVICE_LIGHT_REACH_H
 #include "kernels/shared/cluster_grid.h"
-#include "kernels/shared/light.h"
+#include "kernels/shared/light_transform.h"
 
-#ifndef HAS_SPOT_LIGHTS
-#define HAS_SPOT_LIGHTS 0
-#endif
+// xyz: the point of a light that its shadow rays go to, view space [m]; w: 1 / d^2, where no point
+// in its range is farther from there than d [1/m^2].
+static inline float4 shadow_target(ShadeLight light) {
+    return (float4)(light.position_inv_range2.xyz, inv_range2_of(light));
+}
 
 // Distance from c to the interval [lo, hi]; 0 inside. Rounding is monotone, so the result is at
 // most the distance to any point of the interval computed the same way.
@@ -15,9 +18,10 @@ static inline float interval_distance(float c, float lo, float hi) {
     return max(max(lo - c, c - hi), 0.0f);
 }
 
-// The sphere of (x, y, z, 1/range^2) against a box, from the distances by axis (Arvo, Graphics Gems
-// I, p. 335). The sum is associated as in evaluate(), so that a box is never farther than its
-// pixels.
+// Does a light reach a box? This and cone_reaches() are the one test of culling, refinement and the
+// brute-force oracle. The sphere of (x, y, z, 1/range^2) against a box, from the distances by axis
+// (Arvo, Graphics Gems I, p. 335). The sum is associated as in evaluate(), so that a box is never
+// farther than its pixels.
 static inline bool sphere_reaches(float dx, float dy, float dz, float inv_range2) {
     return fma(dz, dz, fma(dy, dy, dx * dx)) * inv_range2 <= CULL_LIMIT;
 }

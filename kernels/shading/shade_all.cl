@@ -11,7 +11,6 @@ typedef struct LightSource {
     global const DirectionalLight* directional;
     uint directional_count;
 #if SHADOWS
-    global const float4* bounds;
     global const float* origins;
     ShadowScene casters;
 #endif
@@ -30,8 +29,7 @@ static inline LightSum source_sum(LightSource from, GBuffer g, ItemPlace at, Lit
     set.shadows.scene = from.casters;
     set.shadows.points = &points;
     set.shadows.wanted = item.shown;
-    set.shadows.bounds = from.bounds;
-    set.shadows.directional = from.directional;
+    set.directional = from.directional;
     load_origins(&points, 0u, from.origins, g.view.stride * g.view.height, item.pixels);
 #endif
     LightSum sum = sum_directional(p, set, from.directional, from.directional_count);
@@ -44,7 +42,6 @@ kernel void shade_all(GBUFFER_ARGS, LIGHT_ARGS(const), SHADOW_ARGS, SAMPLE_ARGS,
     LIGHT_SET_OF_ARGS(set);
     LightSource from = {light_count, directional_lights, directional_count};
 #if SHADOWS
-    from.bounds = bounds;
     from.origins = origins;
     from.casters = SHADOW_SCENE_OF_ARGS;
 #endif

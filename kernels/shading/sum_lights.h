@@ -49,6 +49,7 @@ typedef struct LightSet {
     uint directional_count;
 #elif SHADOWS == SHADOWS_RAYS
     ShadowRays shadows;
+    global const DirectionalLight* directional;
 #endif
 #if SAMPLED_SHADOWS
     ShadowPick pick;
@@ -93,7 +94,8 @@ static inline MASK sees_entry(LightSet set, uint entry, uint light) {
 #if SHADOWS == SHADOWS_BITS
     return sees_light(set.shadows, set.directional_count + entry);
 #else
-    return sees_point_light(set.shadows, light);
+    return sees(set.shadows,
+                shadow_point_light(set.shadows.scene.view, LIGHT_AT(set.lights, light)));
 #endif
 }
 
@@ -101,7 +103,7 @@ static inline MASK sees_directional(LightSet set, uint i) {
 #if SHADOWS == SHADOWS_BITS
     return sees_light(set.shadows, i);
 #else
-    return sees_directional_light(set.shadows, i);
+    return sees(set.shadows, shadow_directional_light(set.shadows.scene.view, set.directional[i]));
 #endif
 }
 

@@ -18,11 +18,11 @@
 // The j-th light of a cluster, directional ones first.
 static inline ShadowLight light_of_cluster(ShadowView shadow, global const ActiveCluster* cluster,
                                            uint j, global const DirectionalLight* directional,
-                                           uint directional_count, global const float4* bounds,
+                                           uint directional_count, global const StoredLight* lights,
                                            global const LIGHT_INDEX* lists) {
     if (j < directional_count) return shadow_directional_light(shadow, directional[j]);
     uint light = lists[cluster->list_begin + j - directional_count];
-    return shadow_point_light(shadow, bounds[light]);
+    return shadow_point_light(shadow, LIGHT_AT(lights, light));
 }
 
 kernel void cast_shadows_reserve(uint tile_count, uint directional_count,

@@ -32,8 +32,6 @@ kernel void cast_shadows(
     ShadowRays rays;
     rays.scene = SHADOW_SCENE_OF_ARGS;
     rays.points = &points;
-    rays.bounds = bounds;
-    rays.directional = directional_lights;
     FOR_EACH_CLUSTER(i, active, at.tile) {
         uint first = clusters[i].first_pixel;
         UV places = lane_numbers + place;
@@ -43,7 +41,7 @@ kernel void cast_shadows(
         ShadowBits bits = bits_of_cluster(words + word_offsets[at.tile], clusters + i, place);
         for (uint j = 0; j < directional_count + clusters[i].list_count; ++j) {
             ShadowLight light = light_of_cluster(shadow, clusters + i, j, directional_lights,
-                                                 directional_count, bounds, lists);
+                                                 directional_count, lights, lists);
             rays.wanted = mine;
 #if PICKED_ONLY
             rays.wanted &= sees_light(bits, j);  // the bits are those of picked lights

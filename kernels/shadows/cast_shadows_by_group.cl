@@ -313,7 +313,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cast_shadows(
         for (uint j = get_group_id(0) % SPLIT; j < directional_count + clusters[i].list_count;
              j += SPLIT) {
             ShadowLight light = light_of_cluster(shadow, clusters + i, j, directional_lights,
-                                                 directional_count, bounds, lists);
+                                                 directional_count, lights, lists);
             cast_light(scene, light, first, last, &walk, &points,
                        out + j * shadow_words(first, last));
         }

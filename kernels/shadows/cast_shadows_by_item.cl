@@ -90,7 +90,7 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void cast_shadows(
         uint last = first + clusters[i].pixel_count;
         for (uint j = 0; j < directional_count + clusters[i].list_count; ++j) {
             ShadowLight light = light_of_cluster(shadow, clusters + i, j, directional_lights,
-                                                 directional_count, bounds, lists);
+                                                 directional_count, lights, lists);
             cast_light(scene, light, first, last, &points, out);
             out += shadow_words(first, last);
         }

@@ -9,9 +9,7 @@
 typedef struct ShadowRays {
     ShadowScene scene;
     ShadowPoints* points;
-    MASK wanted;                  // lanes that cast rays
-    global const float4* bounds;  // of the lights: position in view space, 1 / range^2
-    global const DirectionalLight* directional;
+    MASK wanted;  // lanes that cast rays
 } ShadowRays;
 
 static inline MASK sees(ShadowRays rays, ShadowLight light) {
@@ -27,13 +25,5 @@ static inline MASK sees(ShadowRays rays, ShadowLight light) {
     lit = lit_of(rays.points, 0u);
     count_rays(rays.points, tests_before, count, lane_count(lit));
     return lit;
-}
-
-static inline MASK sees_point_light(ShadowRays rays, uint light) {
-    return sees(rays, shadow_point_light(rays.scene.view, rays.bounds[light]));
-}
-
-static inline MASK sees_directional_light(ShadowRays rays, uint i) {
-    return sees(rays, shadow_directional_light(rays.scene.view, rays.directional[i]));
 }
 #endif

@@ -3,8 +3,8 @@
 #ifndef KILOLUX_DEVICE_SHADOW_SPACE_H
 #define KILOLUX_DEVICE_SHADOW_SPACE_H
 #include "kernels/device/lanes.h"
+#include "kernels/lists/light_reach.h"
 #include "kernels/shared/gbuffer.h"
-#include "kernels/shared/light.h"
 #include "kernels/shared/shadow.h"
 
 // Planes of the ends of every pixel's rays: position [m], and the normal of its triangle on the
@@ -41,12 +41,13 @@ typedef struct ShadowLight {
     bool is_direction;
 } ShadowLight;
 
-// `bound`: position in view space and 1 / range^2.
-static inline ShadowLight shadow_point_light(ShadowView view, float4 bound) {
+// `light`: in view space.
+static inline ShadowLight shadow_point_light(ShadowView view, ShadeLight light) {
+    float4 target = shadow_target(light);
     ShadowLight out;
-    out.at = shadow_point(view, bound.xyz);
-    out.inv_range2 = bound.w;
-    out.reach = fmin(1.0f / sqrt(fmax(bound.w, 1e-30f)), 2.0f * view.extent);
+    out.at = shadow_point(view, target.xyz);
+    out.inv_range2 = target.w;
+    out.reach = fmin(1.0f / sqrt(fmax(target.w, 1e-30f)), 2.0f * view.extent);
     out.is_direction = false;
     return out;
 }

@@ -233,26 +233,33 @@ SHARED_FN FV3 reflected_radiance(Surface s, LightSum sum) {
     return out_radiance;
 }
 
-// Adds the largest sums that light can cause. Its n.h is at most `cosine`, Schlick's (1 - v.h)^5 at
-// most `fresnel`. `diffuse`: a bound of the diffuse sum; `all`: the sum of intensity / distance^2;
-// `irradiance`: that sum times n.l, or `all` where n.l is unknown.
-SHARED_FN LightSum add_bounds(LightSum sum, Surface s, ShadingPoint p, FV cosine, FV fresnel,
-                              FV3 diffuse, FV3 irradiance, FV3 all) {
-    sum.diffuse = add3(sum.diffuse, diffuse);
+// The most of light that a surface receives.
+SHARED_PLAIN_STRUCT(LightBound) {
+    FV cosine;       // n.h
+    FV fresnel;      // Schlick's (1 - v.h)^5
+    FV3 diffuse;     // the diffuse sum
+    FV3 all;         // the sum of intensity / distance^2
+    FV3 irradiance;  // that sum times n.l, or `all` where n.l is unknown
+};
+
+// Adds the largest sums that the light can cause.
+SHARED_FN LightSum add_bounds(LightSum sum, Surface s, ShadingPoint p, LightBound most) {
+    sum.diffuse = add3(sum.diffuse, most.diffuse);
 #if SHADING == SHADING_PBR
     FV one = fv(1.0f);
     // D V n.l without 1 / (2 pi): V n.l <= 1 / (2 smith_v).
-    FV ggx = fma(one - cosine * cosine, p.ggx_slope, p.ggx_floor);
+    FV ggx = fma(one - most.cosine * most.cosine, p.ggx_slope, p.ggx_floor);
     FV peak = one / (ggx * ggx * p.smith_v);
     FV3 f0 = mixed_f0(s, dielectric_f0(s));
-    FV3 most = fv3(min(f0.x + fresnel, one), min(f0.y + fresnel, one), min(f0.z + fresnel, one));
-    sum.specular =
-        fv3(fma(most.x, peak * all.x, sum.specular.x), fma(most.y, peak * all.y, sum.specular.y),
-            fma(most.z, peak * all.z, sum.specular.z));
+    FV3 f = fv3(min(f0.x + most.fresnel, one), min(f0.y + most.fresnel, one),
+                min(f0.z + most.fresnel, one));
+    sum.specular = fv3(fma(f.x, peak * most.all.x, sum.specular.x),
+                       fma(f.y, peak * most.all.y, sum.specular.y),
+                       fma(f.z, peak * most.all.z, sum.specular.z));
 #elif SHADING == SHADING_BLINN_PHONG
-    FV cos2 = cosine * cosine;
+    FV cos2 = most.cosine * most.cosine;
     FV peak = pow_of_cos2(cos2, fv(1.0f) - cos2, fv(1.0f), p.exponent);
-    sum.specular = add3(sum.specular, scale3(irradiance, peak));
+    sum.specular = add3(sum.specular, scale3(most.irradiance, peak));
 #endif
     return sum;
 }

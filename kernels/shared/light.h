@@ -14,6 +14,11 @@
 namespace kilolux {
 #endif
 
+// Programs that do not know the scene leave out what only some scenes have.
+#if defined(__OPENCL_VERSION__) && !defined(HAS_SPOT_LIGHTS)
+#define HAS_SPOT_LIGHTS 0
+#endif
+
 // Rows of a light beside its position and colour, each 16 bytes of every light. ROW(has, feature,
 // member): the macro and the member of SceneFeatures of scenes that have the row; xyz of the member
 // is a vector, which view space turns, w a number, which it keeps.
@@ -24,7 +29,8 @@ namespace kilolux {
 
 // A point or spot light, camera-relative: world axes, camera at the origin.
 SHARED_STRUCT(Light) {
-    // xyz: position - camera [m]; w: range [m], negative unless has_own_range()
+    // xyz: position - camera [m]; w: range about it, whatever the light's size [m], negative unless
+    // has_own_range()
     float4 position_range;
     float4 color_scale;  // xyz: luminous intensity, linear Rec. 709 [cd]; w: 1/(cos_in - cos_out)
     // axis_cos: unit spot axis (0 for a point light) and cos_out (-1 for a point light)
@@ -49,7 +55,7 @@ SHARED_STRUCT(WorldLight) {
     Light light;          // its position in the world, rounded
     float4 position_low;  // xyz: what rounding lost
 };
-SHARED_ASSERT(world_light_size, sizeof(WorldLight) == 64);
+SHARED_ASSERT(world_light_size, sizeof(WorldLight) == 16 * (LIGHT_ROW_COUNT + 1));
 
 // A light in view space, as shading reads it.
 SHARED_STRUCT(ShadeLight) {

@@ -7,10 +7,6 @@
 #include "kernels/shared/surface.h"
 #include "kernels/tails/tail_moments.h"
 
-#ifndef HAS_SPOT_LIGHTS
-#define HAS_SPOT_LIGHTS 0
-#endif
-
 // Boxes of VW clusters: middle and half edges [m].
 typedef struct Boxes {
     FV3 middle, half_edge;

@@ -68,7 +68,7 @@ kernel void tree_bound(LIT_ARGS,
     if (item.any) {
         Surface s = load_surface(g, item.pixels, item.z);
         ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
-        LightSum most = zero_sum();
+        LightSum sum = zero_sum();
         FOR_EACH_CLUSTER_OF(item, cluster, mine, active, at.tile) {
             for (uint i = 0; i < clusters[cluster].list_count; ++i) {
                 uint light = lists[clusters[cluster].list_begin + i];
@@ -79,11 +79,11 @@ kernel void tree_bound(LIT_ARGS,
                     node_error(p, tree_nodes[light - light_count], row.position_inv_range2);
                 FV3 color = fv3(row.color_scale.x, row.color_scale.y, row.color_scale.z);
                 FV3 all = scale3(color, e.share);
-                most =
-                    add_bounds(most, s, p, e.cosine, e.fresnel, scale3(color, e.diffuse), all, all);
+                LightBound most = {e.cosine, e.fresnel, scale3(color, e.diffuse), all, all};
+                sum = add_bounds(sum, s, p, most);
             }
         }
-        out = radiance_bound(s, most);
+        out = radiance_bound(s, sum);
     }
     store_radiance(bound, view, item.pixels, out);
 }

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "host/certify/hard_cases.h"
+#include "host/certify/lighting_case.h"
 #include "tests/support/full.h"
 
 namespace kilolux {
@@ -37,6 +38,21 @@ std::string name_of(const testing::TestParamInfo<Parameter>& info) {
     std::string name = "Case" + std::string(hard_case.label) + "_" + std::string(hard_case.name);
     std::replace(name.begin(), name.end(), '-', '_');
     return name + "_Lanes" + std::to_string(lanes);
+}
+
+// Cases of single surfaces must show each value that a surface has.
+TEST(LightingCases, SurfacesHaveAllTheirValues) {
+    SurfaceSample s = grey_surface({0.25, 0.5, -2.0}, {0, 0.6, 0.8});
+    double next = 0.0625;
+#define SET_SCALAR(has, member, decoded, plane, value) s.member = next += 0.0625;
+#define SET_VECTOR(has, member, decoded, plane, value) \
+    s.member = {next + 0.0625, next + 0.125, next + 0.1875}, next += 0.1875;
+    SURFACE_VALUES(SET_VECTOR, SET_SCALAR)
+    const LightingCase input = surface_case(std::span(&s, 1), SHADING_PBR);
+    const SurfaceSample shown =
+        decoded_surfaces(input, light_on_device(gpu_of_lanes(1), input)).at(0, 0);
+#define EXPECT_VALUE(has, member, decoded, plane, value) EXPECT_EQ(shown.member, s.member);
+    SURFACE_VALUES(EXPECT_VALUE, EXPECT_VALUE)
 }
 
 INSTANTIATE_TEST_SUITE_P(All, HardCases,

@@ -16,9 +16,9 @@ namespace {
 void add_profile(SceneLight& light, Scene& scene, std::size_t web) {
     light.direction = glm::normalize(light.direction);
     const glm::dvec3 aside(0.36, 0.48, 0.8);
-    SceneProfile profile{web, glm::normalize(glm::cross(light.direction, aside)), web == 1};
+    light.side = glm::normalize(glm::cross(light.direction, aside));
     light.profile = static_cast<int>(scene.aimed_profiles.size());
-    scene.aimed_profiles.push_back(profile);
+    scene.aimed_profiles.push_back({web, web == 1});
 }
 
 /// The grid with every kind of light, every second spot and some points with an uneven web or one

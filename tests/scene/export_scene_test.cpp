@@ -9,6 +9,7 @@
 #include "host/scene/generated/scenes.h"
 #include "host/scene/lights/light_generator.h"
 #include "host/scene/lights/light_kinds.h"
+#include "host/scene/lights/rig.h"
 #include "tests/scene/export_scenes.h"
 #include "tests/support/gltf_seeds.h"
 #include "tests/support/paths.h"
@@ -72,10 +73,21 @@ TEST(ExportScene, KeepsWhatTheLoaderMadeOfAFile) {
     EXPECT_EQ(scene_difference(scene, round_trip(scene, "x.glb")), "");
 }
 
+// As the export command places it.
+TEST(ExportScene, ALightThatFollowsTheCameraTurnsWithIt) {
+    SceneLight light;
+    light.follows_camera = true;
+    const glm::dmat3 quarter({0, 1, 0}, {-1, 0, 0}, {0, 0, 1});  // about +Z
+    light = placed_light(light, quarter, {1, 2, 3});
+    EXPECT_EQ(light.position, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(light.direction, glm::dvec3(0, 0, -1));
+    EXPECT_EQ(light.side, glm::dvec3(0, 1, 0));
+}
+
 TEST(ExportScene, WritesOnlyConesThatTheExtensionAllows) {
     for (const auto& [inner, outer] : {std::pair{5.0f, 4.0f}, {0.5f, 0.5f}, {-1.0f, 0.5f}}) {
         Scene scene = make_generated_scene("grid");
-        SceneLight spot{.type = LightType::spot, .intensity = glm::vec3(1)};
+        SceneLight spot{.intensity = glm::vec3(1), .type = LightType::spot};
         spot.inner_cone = inner;
         spot.outer_cone = outer;
         scene.lights = {spot};

@@ -82,13 +82,16 @@ void add_lights(Scene& scene) {
     SceneLight spot = point;
     spot.type = LightType::spot;
     spot.direction = glm::normalize(glm::dvec3(0.3, -1.0, 0.2));
+    spot.side = glm::normalize(glm::cross(spot.direction, glm::dvec3(0.5, 0.1, 0.3)));
     spot.inner_cone = 0.2f;
     spot.outer_cone = 0.7f;
     SceneLight down = spot;
     down.direction = {0, -1, 0};
+    down.side = {0.6, 0, 0.8};
     SceneLight sun;
     sun.type = LightType::directional;
     sun.direction = glm::normalize(glm::dvec3(-0.5, -0.8, 0.1));
+    sun.side = glm::normalize(glm::cross(sun.direction, glm::dvec3(0.0, 0.6, 0.8)));
     sun.intensity = {1000.0f, 990.0f, 900.0f};
     SceneLight dark = point;
     dark.intensity = glm::vec3(0.0f);
@@ -202,6 +205,7 @@ bool same_light(const SceneLight& a, const SceneLight& b) {
     // Normalising a unit vector again may change its rounding in double.
     const bool aimed = a.type != LightType::point || a.profile >= 0;
     if (aimed && glm::distance(a.direction, b.direction) > 1e-15) return false;
+    if (aimed && glm::distance(a.side, b.side) > 1e-15) return false;
     if (a.profile != b.profile) return false;
     return a.type != LightType::spot ||
            (a.inner_cone == b.inner_cone && a.outer_cone == b.outer_cone);
@@ -212,7 +216,7 @@ bool same_web(const PhotometricWeb& a, const PhotometricWeb& b) {
 }
 
 bool same_profile(const SceneProfile& a, const SceneProfile& b) {
-    return a.web == b.web && a.mirrored == b.mirrored && glm::distance(a.side, b.side) < 1e-15;
+    return a.web == b.web && a.mirrored == b.mirrored;
 }
 
 bool same_camera(const SceneCamera& a, const SceneCamera& b) {

@@ -93,6 +93,8 @@ std::vector<SurfaceSample> random_surfaces(uint width, uint height) {
         s.albedo = {random.unit(), random.unit(), random.unit()};
         s.roughness = random.uniform(0.1, 1.0);
         s.metallic = random.below(2);
+        s.specular = {random.unit(), random.unit(), random.unit()};
+        s.specular_f90 = random.unit();
         surfaces.push_back(s);
     }
     return surfaces;

@@ -51,12 +51,12 @@ Scene profile_scene() {
         const glm::dvec3 t{random.unit(), random.unit(), random.unit()};
         light.position = box.min + t * box.size() + glm::dvec3(0.0, 0.5, 0.0);
         light.direction = directions[i / 4 % 4];
+        light.side = glm::normalize(glm::cross(light.direction, glm::dvec3(0.8, 0.0, 0.6)));
         light.intensity = glm::vec3(50.0f);
         light.range = static_cast<float>(0.5 * glm::length(box.size()));
         light.profile = static_cast<int>(i);
         scene.lights.push_back(light);
-        const glm::dvec3 side = glm::cross(light.direction, glm::dvec3(0.8, 0.0, 0.6));
-        scene.aimed_profiles.push_back({i % 4, glm::normalize(side), i % 8 > 3});
+        scene.aimed_profiles.push_back({i % 4, i % 8 > 3});
     }
     return scene;
 }

@@ -26,7 +26,7 @@ ReferenceLight of_row(const ShadeLight& row) {
 WebInView web_of(const SceneLight& light, const glm::dmat3& view_from_world, const Scene& scene) {
     const SceneProfile& profile = scene.aimed_profiles[static_cast<std::size_t>(light.profile)];
     return {&scene.webs[profile.web], view_from_world * glm::normalize(light.direction),
-            view_from_world * profile.side, profile.mirrored};
+            view_from_world * light.side, profile.mirrored};
 }
 
 ReferenceLight of_scene(const SceneLight& light, const Camera& camera, const Scene* scene) {

@@ -14,10 +14,6 @@ namespace {
 // kernels/lists/light_reach.h) [m].
 constexpr double kFarthest = 1e15;
 
-bool is_finite(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 bool gives_light(const glm::vec3& intensity) {
     return is_finite(glm::dvec3(intensity)) &&
            std::min({intensity.x, intensity.y, intensity.z}) >= 0.0f &&
@@ -67,7 +63,7 @@ AimedProfile aimed_profile(const SceneLight& light, const Scene& scene,
     if (light.profile < 0) return {{0.0f, 0.0f, 0.0f, NO_WEB}, {0.0f, 0.0f, 0.0f, 1.0f}};
     const SceneProfile& profile = scene.aimed_profiles[static_cast<std::size_t>(light.profile)];
     const glm::vec3 down(glm::normalize(light.direction));
-    const glm::vec3 side(profile.side);
+    const glm::vec3 side(light.side);
     return {{down.x, down.y, down.z, starts[profile.web]},
             {side.x, side.y, side.z, profile.mirrored ? -1.0f : 1.0f}};
 }
@@ -86,7 +82,7 @@ LightRows make_light_rows(std::span<const SceneLight> lights, const glm::dvec3& 
             ++rows.rejected;
             continue;
         }
-        rows.features.*kind_of(light).feature = true;
+        add_features(rows.features, light);
         if (kind_of(light).is_placed) {
             rows.local.push_back(row_of(light, light.position - camera_position));
         } else {

@@ -61,7 +61,7 @@ SceneFeatures features_of(const Scene& scene, const std::vector<Material>& mater
     SceneFeatures out;
     out.light_d_min = light_d_min(scene);
     out.light_profiles = !scene.aimed_profiles.empty();
-    for (const SceneLight& light : scene.lights) out.*kind_of(light).feature = true;
+    for (const SceneLight& light : scene.lights) add_features(out, light);
     for (const MaterialFeature& feature : kMaterialFeatures) {
         out.*feature.member = std::ranges::any_of(materials, feature.needs);
     }

@@ -159,7 +159,7 @@ class Writer {
 
     void add_nodes(const std::vector<int>& mesh_of) {
         ExportedNodes placed = export_nodes(scene_, mesh_of);
-        out_.lights = placed.lights.size() + placed.profile_lights;
+        out_.lights = placed.usable_lights;
         out_.unusable_lights = placed.unusable_lights;
         Json scene = Json::object();
         if (!scene_.name.empty()) scene["name"] = scene_.name;
@@ -168,8 +168,7 @@ class Writer {
         add_array(root_, "nodes", std::move(placed.nodes));
         add_array(root_, "cameras", std::move(placed.cameras));
         add_webs();
-        if (placed.lights.empty()) return;
-        root_["extensions"]["KHR_lights_punctual"]["lights"] = std::move(placed.lights);
+        if (!placed.lights.empty()) root_["extensions"].update(placed.lights);
     }
 
     void add_webs() {

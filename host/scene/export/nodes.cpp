@@ -13,10 +13,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-bool is_finite_vector(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 Json matrix_json(const glm::dmat4& m) { return std::vector<double>(&m[0][0], &m[0][0] + 16); }
 
 glm::dmat4 with_axes(const glm::dmat3& axes, const glm::dvec4& origin) {
@@ -86,10 +82,9 @@ bool is_usable(const SceneLight& light) {
     const glm::dvec3 intensity(light.intensity);
     const LightKind& kind = kind_of(light);
     const bool aimed = (!kind.is_aimed && light.profile < 0) ||
-                       (is_finite_vector(light.direction) && glm::length(light.direction) > 0.0);
-    return is_finite_vector(intensity) &&
-           std::min({intensity.x, intensity.y, intensity.z}) >= 0.0 &&
-           is_finite_vector(light.position) && aimed && has_good_numbers(with_range(light));
+                       (is_finite(light.direction) && glm::length(light.direction) > 0.0);
+    return is_finite(intensity) && std::min({intensity.x, intensity.y, intensity.z}) >= 0.0 &&
+           is_finite(light.position) && aimed && has_good_numbers(with_range(light));
 }
 
 // The light with angles as KHR_lights_punctual allows them: inner < outer <= 90 degrees.
@@ -127,24 +122,27 @@ Json light_json(const SceneLight& light) {
     return out;
 }
 
-// Lights travel along their node's -Z.
-glm::dmat3 axes_along(const glm::dvec3& direction) {
-    const glm::dvec3 z = -glm::normalize(direction);
+// Lights travel along their node's -Z, and X is their side; another one where that is along Z.
+glm::dmat3 axes_of(const SceneLight& light) {
+    constexpr double kLeastSine = 1e-6;
+    const glm::dvec3 z = -glm::normalize(light.direction);
+    const glm::dvec3 across = light.side - z * glm::dot(light.side, z);
     const glm::dvec3 aside = std::abs(z.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-    const glm::dvec3 x = glm::normalize(glm::cross(aside, z));
+    const glm::dvec3 x =
+        glm::normalize(glm::length(across) > kLeastSine ? across : glm::cross(aside, z));
     return {x, glm::cross(z, x), z};
 }
 
 void add_light(ExportedNodes& out, const SceneLight& light) {
-    const auto index = out.lights.size();
-    out.lights.push_back(light_json(light));
+    const std::string extension(kind_of(light).extension);
+    Json& lights = out.lights[extension]["lights"];
     Json node = Json::object();
-    node["extensions"]["KHR_lights_punctual"]["light"] = index;
+    node["extensions"][extension]["light"] = lights.size();
+    lights.push_back(light_json(light));
     if (!kind_of(light).is_aimed) {
         node["translation"] = {light.position.x, light.position.y, light.position.z};
     } else {
-        node["matrix"] =
-            matrix_json(with_axes(axes_along(light.direction), glm::dvec4(light.position, 1.0)));
+        node["matrix"] = matrix_json(with_axes(axes_of(light), glm::dvec4(light.position, 1.0)));
     }
     out.roots.push_back(out.nodes.size());
     out.nodes.push_back(std::move(node));
@@ -156,14 +154,12 @@ void add_profile_light(ExportedNodes& out, const SceneLight& light, const Scene&
     Json use{{"light", profile.web},
              {"multiplier", brightest(light) / scene.webs[profile.web].peak}};
     add_color(use, light);
-    const glm::dvec3 z = -glm::normalize(light.direction);
-    const glm::dvec3 y = glm::cross(z, profile.side);
-    const glm::dmat3 axes{profile.side, profile.mirrored ? -y : y, z};
+    glm::dmat3 axes = axes_of(light);
+    if (profile.mirrored) axes[1] = -axes[1];
     Json node{{"matrix", matrix_json(with_axes(axes, glm::dvec4(light.position, 1.0)))}};
     node["extensions"]["EXT_lights_ies"] = std::move(use);
     out.roots.push_back(out.nodes.size());
     out.nodes.push_back(std::move(node));
-    ++out.profile_lights;
 }
 
 Json orthographic_json(const SceneCamera& camera, double shift) {
@@ -207,12 +203,15 @@ ExportedNodes export_nodes(const Scene& scene, const std::vector<int>& mesh_of) 
         out.roots.push_back(add_placed(out.nodes, instance.world_from_object, {{"mesh", mesh}}));
     }
     for (const SceneLight& light : scene.lights) {
-        if (is_usable(light) && light.profile >= 0) {
-            add_profile_light(out, light, scene);
-        } else if (is_usable(light)) {
-            add_light(out, light);
-        } else {
+        if (!is_usable(light)) {
             ++out.unusable_lights;
+            continue;
+        }
+        ++out.usable_lights;
+        if (light.profile >= 0) {
+            add_profile_light(out, light, scene);
+        } else {
+            add_light(out, light);
         }
     }
     return out;

@@ -14,11 +14,10 @@ namespace kilolux {
 /// glTF's nodes with the lights and cameras they carry.
 struct ExportedNodes {
     nlohmann::ordered_json nodes = nlohmann::ordered_json::array();
-    nlohmann::ordered_json roots = nlohmann::ordered_json::array();  // indices into `nodes`
-    nlohmann::ordered_json lights = nlohmann::ordered_json::array();
+    nlohmann::ordered_json roots = nlohmann::ordered_json::array();    // indices into `nodes`
+    nlohmann::ordered_json lights = nlohmann::ordered_json::object();  // by extension, without IES
     nlohmann::ordered_json cameras = nlohmann::ordered_json::array();
-    std::size_t profile_lights = 0;  // in nodes, not in `lights`
-    std::size_t unusable_lights = 0;
+    std::size_t usable_lights = 0, unusable_lights = 0;
 };
 
 /// Materials, textures and samplers as glTF arrays.

@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 #include <tiny_gltf.h>
 
+#include <array>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -20,6 +21,7 @@
 #include "host/scene/gltf/json/json_text.h"
 #include "host/scene/gltf/load_budget.h"
 #include "host/scene/gltf/load_scene.h"
+#include "host/scene/lights/light_kinds.h"
 
 namespace kilolux {
 
@@ -33,7 +35,7 @@ struct GltfDocument {
     // Without buffers, materials and lights; images keep uri, bufferView and mimeType only.
     tinygltf::Model model;
     std::vector<nlohmann::json> materials;
-    std::vector<nlohmann::json> lights;            // of KHR_lights_punctual
+    std::array<std::vector<nlohmann::json>, kLightExtensions.size()> lights;
     std::vector<std::optional<ByteSpan>> buffers;  // none: a placeholder without data, or not used
     std::vector<ByteSpan> views;                   // one per buffer view, decompressed
     std::vector<Bytes> owned;                      // what buffers, views and data point into

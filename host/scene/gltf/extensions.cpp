@@ -4,18 +4,18 @@
 #include <algorithm>
 #include <array>
 
+#include "host/scene/lights/light_kinds.h"
 #include "host/scene/material_table.h"
 
 namespace kilolux {
 namespace {
 
-// Beside those of the table of materials.
+// Beside those of the tables of materials and lights.
 constexpr auto kRead = std::to_array<std::string_view>(
-    {"KHR_lights_punctual", "KHR_texture_transform", "KHR_mesh_quantization",
-     "KHR_materials_emissive_strength", "KHR_materials_unlit",
-     "KHR_materials_pbrSpecularGlossiness", "KHR_materials_variants", "EXT_mesh_gpu_instancing",
-     "EXT_meshopt_compression", "KHR_draco_mesh_compression", "EXT_texture_webp",
-     "EXT_lights_ies"});
+    {"KHR_texture_transform", "KHR_mesh_quantization", "KHR_materials_emissive_strength",
+     "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness", "KHR_materials_variants",
+     "EXT_mesh_gpu_instancing", "EXT_meshopt_compression", "KHR_draco_mesh_compression",
+     "EXT_texture_webp", "EXT_lights_ies"});
 
 // What no still picture shows: metadata, sound, physics, what a user may point at.
 constexpr auto kUnseen =
@@ -63,6 +63,7 @@ bool names_extension(const std::array<Row, N>& rows, const std::string& name) {
 bool is_read(const std::string& name) {
     return std::ranges::count(kRead, std::string_view(name)) > 0 ||
            std::ranges::count(kUnseen, std::string_view(name)) > 0 ||
+           std::ranges::count(kLightExtensions, std::string_view(name)) > 0 ||
            names_extension(kMaterialMaps, name) || names_extension(kMaterialFactors, name);
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "host/scene/gltf/extensions.h"
+#include "host/scene/gltf/lights_cameras.h"
 #include "host/scene/lights/ies_file.h"
 
 namespace kilolux {
@@ -58,7 +59,7 @@ SceneLight light_of(const tinygltf::Value& use, const PhotometricWeb& web,
                     const glm::dmat4& world_from_node) {
     SceneLight out;
     out.position = glm::dvec3(world_from_node[3]);
-    out.direction = -glm::normalize(glm::dvec3(world_from_node[2]));
+    aim_light(out, world_from_node);
     const double peak = member_or(use, "multiplier", 1.0) * web.peak;
     const std::vector<double> color = numbers_member(use, "color");
     for (glm::length_t c = 0; c < 3; ++c) {
@@ -66,15 +67,6 @@ SceneLight light_of(const tinygltf::Value& use, const PhotometricWeb& web,
         out.intensity[c] = to_float(std::clamp(share, 0.0, 1.0) * peak);
     }
     return out;
-}
-
-// The extension's Z axis is the web's, and X has the horizontal angle 0.
-SceneProfile profile_of(std::size_t web, const glm::dmat4& world_from_node) {
-    const glm::dvec3 z = glm::normalize(glm::dvec3(world_from_node[2]));
-    const glm::dvec3 x(world_from_node[0]);
-    const glm::dvec3 side = glm::normalize(x - z * glm::dot(x, z));
-    const double volume = glm::determinant(glm::dmat3(world_from_node));
-    return {web, side, volume < 0.0};
 }
 
 }  // namespace
@@ -100,11 +92,10 @@ void add_profile_lights(const GltfDocument& document, const PlacedNodes& nodes, 
         const auto web = static_cast<std::size_t>(member_or(*use, "light", 0));
         SceneLight light = light_of(*use, scene.webs[web], nodes.world_from_node[n]);
         light.profile = static_cast<int>(scene.aimed_profiles.size());
-        scene.aimed_profiles.push_back(profile_of(web, nodes.world_from_node[n]));
+        const bool mirrored = glm::determinant(glm::dmat3(nodes.world_from_node[n])) < 0.0;
+        scene.aimed_profiles.push_back({web, mirrored});
         // Without a side the light is rejected and counted like any light without a direction.
-        if (!std::isfinite(glm::length(scene.aimed_profiles.back().side))) {
-            light.direction = glm::dvec3(0.0);
-        }
+        if (!std::isfinite(glm::length(light.side))) light.direction = glm::dvec3(0.0);
         scene.lights.push_back(light);
     }
 }

@@ -14,11 +14,8 @@ SceneLight convert_light(const nlohmann::json& source, const glm::dmat4& world_f
     SceneLight out;
     const LightKind& kind = *find_light_kind(source.at("type").get<std::string>());
     out.type = kind.type;
+    if (kind.is_aimed) aim_light(out, world_from_node);
     out.position = glm::dvec3(world_from_node[3]);
-    if (kind.is_aimed) {
-        // Lights travel along the node's -Z; its scale does not matter.
-        out.direction = -glm::normalize(glm::dvec3(world_from_node[2]));
-    }
     const auto color = source.value("color", std::array<double, 3>{1.0, 1.0, 1.0});
     for (glm::length_t c = 0; c < 3; ++c) {
         out.intensity[c] =
@@ -88,13 +85,23 @@ SceneCamera convert_camera(const GltfDocument& document, std::size_t index,
 
 }  // namespace
 
+void aim_light(SceneLight& light, const glm::dmat4& world_from_node) {
+    const glm::dvec3 x(world_from_node[0]);
+    const glm::dvec3 z = glm::normalize(glm::dvec3(world_from_node[2]));
+    light.direction = -z;
+    light.side = glm::normalize(x - z * glm::dot(x, z));
+}
+
 std::vector<SceneLight> convert_lights(const GltfDocument& document, const PlacedNodes& nodes) {
     std::vector<SceneLight> lights;
     for (const std::size_t n : nodes.in_scene) {
-        const auto* use = find_extension(document.model.nodes[n].extensions, "KHR_lights_punctual");
-        if (use == nullptr || !use->Has("light")) continue;
-        const auto light = static_cast<std::size_t>(member_or(*use, "light", 0));
-        lights.push_back(convert_light(document.lights[light], nodes.world_from_node[n]));
+        for (std::size_t e = 0; e < kLightExtensions.size(); ++e) {
+            const auto* use = find_extension(document.model.nodes[n].extensions,
+                                             std::string(kLightExtensions[e]));
+            if (use == nullptr || !use->Has("light")) continue;
+            const auto light = static_cast<std::size_t>(member_or(*use, "light", 0));
+            lights.push_back(convert_light(document.lights[e][light], nodes.world_from_node[n]));
+        }
     }
     return lights;
 }
@@ -102,13 +109,15 @@ std::vector<SceneLight> convert_lights(const GltfDocument& document, const Place
 void report_cones(const GltfDocument& document) {
     std::string first;
     std::size_t more = 0;
-    for (std::size_t i = 0; i < document.lights.size(); ++i) {
-        const std::string problem = cone_problem(convert_light(document.lights[i], glm::dmat4(1)));
-        if (problem.empty()) continue;
-        if (first.empty()) {
-            first = element_name("lights", i) + ": " + problem;
-        } else {
-            ++more;
+    for (const std::vector<nlohmann::json>& lights : document.lights) {
+        for (std::size_t i = 0; i < lights.size(); ++i) {
+            const std::string problem = cone_problem(convert_light(lights[i], glm::dmat4(1)));
+            if (problem.empty()) continue;
+            if (first.empty()) {
+                first = element_name("lights", i) + ": " + problem;
+            } else {
+                ++more;
+            }
         }
     }
     if (first.empty()) return;

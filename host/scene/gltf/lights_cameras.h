@@ -5,7 +5,10 @@
 
 namespace kilolux {
 
-/// The lights of KHR_lights_punctual at their nodes. Unusable values are kept: the renderer rejects
+/// Lights travel along their node's -Z, and X is their side; its scale does not matter.
+void aim_light(SceneLight& light, const glm::dmat4& world_from_node);
+
+/// The lights of kLightExtensions at their nodes. Unusable values are kept: the renderer rejects
 /// and counts those lights.
 std::vector<SceneLight> convert_lights(const GltfDocument& document, const PlacedNodes& nodes);
 

@@ -108,8 +108,6 @@ Rules node_rules() {
         required(index(ies + "light", "/extensions/EXT_lights_ies/lights")),
         number(ies + "multiplier"),
         numbers(ies + "color", 3),
-        index("nodes[].extensions.KHR_lights_punctual.light",
-              "/extensions/KHR_lights_punctual/lights"),
         required(object(instancing + ".attributes")),
         index(instancing + ".attributes{}", "/accessors"),
         required(array("skins[].joints")),
@@ -204,16 +202,28 @@ Rules texture_rules() {
     };
 }
 
-std::vector<std::string> light_kind_names() {
+Rules light_rules(std::string_view extension) {
+    const std::string place = "extensions." + std::string(extension);
+    const std::string light = place + ".lights[].";
     std::vector<std::string> names;
-    for (const LightKind& kind : kLightKinds) names.emplace_back(kind.name);
-    return names;
+    for (const LightKind& kind : kLightKinds) {
+        if (kind.extension == extension) names.emplace_back(kind.name);
+    }
+    Rules rules = {
+        index("nodes[]." + place + ".light", "/extensions/" + std::string(extension) + "/lights"),
+        required(choice(light + "type", names)),
+        numbers(light + "color", 3),
+        number(light + "intensity"),
+    };
+    for (const LightNumber& of_light : kLightNumbers) {
+        rules.push_back(number(light + std::string(of_light.path)));
+    }
+    return rules;
 }
 
-Rules camera_and_light_rules() {
-    const std::string light = "extensions.KHR_lights_punctual.lights[].";
+Rules camera_and_profile_rules() {
     const std::string profile = "extensions.EXT_lights_ies.lights[].";
-    Rules rules = {
+    return {
         required(choice("cameras[].type", {"perspective", "orthographic"})),
         where_type("perspective", required(object("cameras[].perspective"))),
         where_type("orthographic", required(object("cameras[].orthographic"))),
@@ -225,18 +235,11 @@ Rules camera_and_light_rules() {
         required(number("cameras[].orthographic.ymag")),
         required(number("cameras[].orthographic.znear")),
         required(number("cameras[].orthographic.zfar")),
-        required(choice(light + "type", light_kind_names())),
-        numbers(light + "color", 3),
-        number(light + "intensity"),
         text(profile + "uri"),
         text(profile + "name"),
         index(profile + "bufferView", "/bufferViews"),
         choice(profile + "mimeType", {"application/x-ies-lm-63"}),
     };
-    for (const LightNumber& of_light : kLightNumbers) {
-        rules.push_back(number(light + std::string(of_light.path)));
-    }
-    return rules;
 }
 
 Rules animation_rules() {
@@ -259,11 +262,14 @@ std::vector<GltfRule> gltf_rules() {
         required(object("asset")), required(text("asset.version")), text("asset.minVersion"),
         text("extensionsUsed[]"),  text("extensionsRequired[]"),
     };
-    for (const Rules& part :
-         {buffer_rules(), accessor_rules(), node_rules(), mesh_rules(), material_rules(),
-          variant_rules(), texture_rules(), camera_and_light_rules(), animation_rules()}) {
+    const auto add = [&rules](const Rules& part) {
         rules.insert(rules.end(), part.begin(), part.end());
-    }
+    };
+    for (const auto part :
+         {buffer_rules, accessor_rules, node_rules, mesh_rules, material_rules, variant_rules,
+          texture_rules, camera_and_profile_rules, animation_rules})
+        add(part());
+    for (const std::string_view extension : kLightExtensions) add(light_rules(extension));
     return rules;
 }
 

@@ -14,22 +14,28 @@
 
 namespace kilolux {
 
+/// Extensions of glTF that have lights: an array of "lights", of which a node names one. The
+/// loader, its rules and the exporter loop over these.
+inline constexpr std::string_view kPunctual = "KHR_lights_punctual";
+inline constexpr std::array kLightExtensions = {kPunctual};
+
 /// Properties of a kind of light. The loader, its rules, the exporter and ranges read these rows
 /// instead of naming kinds.
 struct LightKind {
     LightType type;
-    std::string_view name;  // in KHR_lights_punctual and in Python
-    bool is_placed;         // has a position and a range, intensity in candela; else lux
-    bool is_aimed;          // has a direction
+    std::string_view extension;  // of kLightExtensions
+    std::string_view name;       // there and in Python
+    bool is_placed;              // has a position and a range, intensity in candela; else lux
+    bool is_aimed;               // has a direction
     bool has_cone;
     bool is_summed;  // a light tree may replace many by one: a point, equal in all directions
     bool SceneFeatures::*feature;  // of scenes that have one
 };
 
 inline constexpr auto kLightKinds = std::to_array<LightKind>({
-    {LightType::point, "point", true, false, false, true, &SceneFeatures::point_lights},
-    {LightType::spot, "spot", true, true, true, false, &SceneFeatures::spot_lights},
-    {LightType::directional, "directional", false, true, false, false,
+    {LightType::point, kPunctual, "point", true, false, false, true, &SceneFeatures::point_lights},
+    {LightType::spot, kPunctual, "spot", true, true, true, false, &SceneFeatures::spot_lights},
+    {LightType::directional, kPunctual, "directional", false, true, false, false,
      &SceneFeatures::directional_lights},
 });
 static_assert([] {
@@ -43,7 +49,7 @@ static_assert([] {
 /// A number that some kinds of light have, in a file as here; 0 is a file's default. The loader,
 /// its rules, the exporter, Python and the test of a light's usability loop over these.
 struct LightNumber {
-    std::string_view path;  // in a light of KHR_lights_punctual
+    std::string_view path;  // in a light of a file
     const char* name;       // in Python
     float SceneLight::*member;
     bool LightKind::*has;      // the kinds that have it
@@ -61,10 +67,19 @@ constexpr const LightKind& kind_of(LightType type) {
 }
 constexpr const LightKind& kind_of(const SceneLight& light) { return kind_of(light.type); }
 
+/// Adds what a scene needs that has the light.
+inline void add_features(SceneFeatures& features, const SceneLight& light) {
+    features.*kind_of(light).feature = true;
+}
+
 /// Null for an unknown name.
 constexpr const LightKind* find_light_kind(std::string_view name) {
     const auto found = std::ranges::find(kLightKinds, name, &LightKind::name);
     return found == kLightKinds.end() ? nullptr : &*found;
+}
+
+inline bool is_finite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
 /// Whether the numbers of the light's kind are finite, and positive where they must be.

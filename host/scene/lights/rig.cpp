@@ -113,6 +113,7 @@ SceneLight placed_light(SceneLight light, const glm::dmat3& world_from_view,
     if (!light.follows_camera) return light;
     light.position = camera_position + world_from_view * light.position;
     light.direction = world_from_view * light.direction;
+    light.side = world_from_view * light.side;
     light.follows_camera = false;
     return light;
 }

@@ -58,14 +58,14 @@ TEST(LoadSceneProfiles, TurnWithTheirNode) {
     const json use = {{"light", 0}};
     const Scene plain = load_beside(file_with(kFile, json::object(), use), ies_text({}));
     EXPECT_EQ(plain.lights[0].direction, glm::dvec3(0, 0, -1));
-    EXPECT_EQ(plain.aimed_profiles[0].side, glm::dvec3(1, 0, 0));
+    EXPECT_EQ(plain.lights[0].side, glm::dvec3(1, 0, 0));
     EXPECT_FALSE(plain.aimed_profiles[0].mirrored);
     const double root = std::sqrt(0.5);  // a quarter turn about +Y: -Z to -X, +X to -Z
     const Scene turned = load_beside(
         file_with(kFile, {{"rotation", {0, root, 0, root}}, {"scale", {2, 3, 0.5}}}, use),
         ies_text({}));
     EXPECT_LE(glm::length(turned.lights[0].direction - glm::dvec3(-1, 0, 0)), 1e-12);
-    EXPECT_LE(glm::length(turned.aimed_profiles[0].side - glm::dvec3(0, 0, -1)), 1e-12);
+    EXPECT_LE(glm::length(turned.lights[0].side - glm::dvec3(0, 0, -1)), 1e-12);
     const Scene mirrored =
         load_beside(file_with(kFile, {{"scale", {1, -1, 1}}}, use), ies_text({}));
     EXPECT_TRUE(mirrored.aimed_profiles[0].mirrored);

@@ -74,8 +74,10 @@ class ModelParser {
     void run(json root) {
         std::vector<json> images = take_array(root, "images");
         document_.materials = take_array(root, "materials");
-        const json::json_pointer punctual("/extensions/KHR_lights_punctual");
-        if (root.contains(punctual)) document_.lights = take_array(root.at(punctual), "lights");
+        for (std::size_t e = 0; e < kLightExtensions.size(); ++e) {
+            const json::json_pointer place("/extensions/" + std::string(kLightExtensions[e]));
+            if (root.contains(place)) document_.lights[e] = take_array(root.at(place), "lights");
+        }
         std::vector<json> nodes = take_array(root, "nodes");
         const std::vector<int> indices = adapt_to_tinygltf(root);
         const JsonCost cost = cost_of(root);
@@ -87,9 +89,11 @@ class ModelParser {
         add_images(document_, images);
         add_nodes(std::move(nodes));
         std::uint64_t kept = 0;
-        for (const auto* list : {&document_.materials, &document_.lights}) {
-            for (const json& value : *list) kept += cost_of(value).values;
-        }
+        const auto keep = [&kept](const std::vector<json>& list) {
+            for (const json& value : list) kept += cost_of(value).values;
+        };
+        keep(document_.materials);
+        std::ranges::for_each(document_.lights, keep);
         release(charged_ - std::min(charged_, kept));
     }
 
