@@ -28,7 +28,7 @@ SceneLight convert_light(const nlohmann::json& source, const glm::dmat4& world_f
     return out;
 }
 
-constexpr double kLeastSine = 1e-6;  // of the angle between a camera's axes
+constexpr double kLeastAxesSine = 1e-6;  // of the angle between a camera's axes
 
 void require(const GltfDocument& document, bool holds, const std::string& where, double value,
              const std::string& expected) {
@@ -70,7 +70,7 @@ SceneCamera convert_camera(const GltfDocument& document, std::size_t index,
     const glm::dvec3 y(world_from_node[1]);
     const glm::dvec3 z(world_from_node[2]);
     const double across = glm::length(glm::cross(y, z)) / (glm::length(y) * glm::length(z));
-    if (!is_finite(world_from_node) || !(across > kLeastSine)) {
+    if (!is_finite(world_from_node) || !(across > kLeastAxesSine)) {
         document.fail(node, "has a camera but a transform without direction");
     }
     if (source.type == "orthographic") {
