@@ -62,10 +62,12 @@ DenormalInput denormal_input() {
     Random random(20);
     for (int i = 0; i < 64; ++i) {
         const float intensity = i % 4 == 3 ? 1.0f : (i % 4 == 2 ? 1e-40f : 1e-38f);
-        in.lights.push_back({{static_cast<float>(random.uniform(-3, 3)), 0.5f,
-                              static_cast<float>(random.uniform(-1.5, 0)), 1.0f / 400.0f},
-                             {intensity, intensity, intensity, 1.0f},
-                             {0.0f, 0.0f, 0.0f, -1.0f}});
+        ShadeLight light{};
+        light.position_inv_range2 = {static_cast<float>(random.uniform(-3, 3)), 0.5f,
+                                     static_cast<float>(random.uniform(-1.5, 0)), 1.0f / 400.0f};
+        light.color_scale = {intensity, intensity, intensity, 1.0f};
+        light.axis_cos.w = -1.0f;
+        in.lights.push_back(light);
     }
     in.grid = make_cluster_grid({1, 1, 4, 1e-31f, 1e-28f, 0.0f}, 16, 16);
     return in;

@@ -196,7 +196,7 @@ Planes decode(const Gpu& gpu, const KernelFeatures& features, const GBuffer& gbu
 }
 
 Light point_light(const glm::dvec3& position, double range, const glm::dvec3& intensity) {
-    return {row_of(position, range), row_of(intensity, 1.0), {0.0f, 0.0f, 0.0f, -1.0f}};
+    return point_light_rows(row_of(position, range), row_of(intensity, 0.0));
 }
 
 Light spot_light(const Light& point, glm::dvec3 axis, double inner, double outer) {
