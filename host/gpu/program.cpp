@@ -11,8 +11,8 @@
 namespace kilolux {
 namespace {
 
-// Drivers whose own declarations of built-in functions are left out for pocl_builtins.h: those with
-// which it was tried.
+// Whether kernels/device/pocl_builtins.h replaces the driver's opencl-c.h. Tested with PoCL 3.1
+// only.
 bool takes_our_declarations(const DeviceInfo& device) {
     return device.platform == "Portable Computing Language" && device.driver.starts_with("3.1");
 }

@@ -109,7 +109,8 @@ class ProgramCache {
 KernelProgram build_program(const Gpu& gpu, std::string_view stem,
                             const BuildOptions& options = {});
 
-/// The same of a text without includes, which `name` names in messages.
+/// The same of a text without includes, which `name` names in messages. On PoCL 3.1 it may call
+/// only the built-in functions that kernels/device/pocl_builtins.h declares.
 KernelProgram build_text(const Gpu& gpu, const std::string& name, std::string_view text,
                          const BuildOptions& options);
 

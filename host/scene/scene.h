@@ -107,12 +107,12 @@ struct Instance {
 enum class LightType : std::uint8_t { point, spot, directional };
 
 struct SceneLight {
-    glm::dvec3 position{0.0};        // [m], world
-    glm::dvec3 direction{0, 0, -1};  // unit, the way the light travels (spot, directional)
-    glm::dvec3 side{1, 0, 0};        // unit, across the direction: how the light is turned about it
-    glm::vec3 intensity{1.0f};       // linear Rec. 709; [cd], directional [lx]
-    float range = 0.0f;              // [m]; 0: not given, see light_ranges.h
-    float inner_cone = 0.0f;         // half angle [rad]
+    glm::dvec3 position{0.0};          // [m], world
+    glm::dvec3 direction{0, 0, -1};    // unit, the way the light travels (spot, directional)
+    glm::dvec3 side{1, 0, 0};          // unit: how a light of a file is turned about its direction
+    glm::vec3 intensity{1.0f};         // linear Rec. 709; [cd], directional [lx]
+    float range = 0.0f;                // [m]; 0: not given, see light_ranges.h
+    float inner_cone = 0.0f;           // half angle [rad]
     float outer_cone = 0.7853981634f;  // half angle [rad]
     int profile = -1;                  // index into Scene::aimed_profiles; -1: none
     LightType type = LightType::point;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where a light reaches, and where its shadow rays go. Lists and shadows ask this text alone: a
-// kind that does not fill the sphere of its range, or has a size, has its case here.
+// kind that does not fill the sphere of its range, or has a size, has its case here. Lists ask
+// cone_reaches() only where the scene has SceneFeatures::spot_lights.
 #ifndef KILOLUX_DEVICE_LIGHT_REACH_H
 #define KILOLUX_DEVICE_LIGHT_REACH_H
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/light_transform.h"
 
-// xyz: the point of a light that its shadow rays go to, view space [m]; w: 1 / d^2, where no point
-// in its range is farther from there than d [1/m^2].
+// xyz: the point of a light that its shadow rays go to, view space [m]; w: 1 / d^2 [1/m^2] of the
+// largest distance d from there to a point in the light's range.
 static inline float4 shadow_target(ShadeLight light) {
     return (float4)(light.position_inv_range2.xyz, inv_range2_of(light));
 }

@@ -15,7 +15,7 @@ namespace kilolux {
 #endif
 
 // Programs that do not know the scene leave out what only some scenes have.
-#if defined(__OPENCL_VERSION__) && !defined(HAS_SPOT_LIGHTS)
+#if (defined(__OPENCL_C_VERSION__) || defined(__OPENCL_VERSION__)) && !defined(HAS_SPOT_LIGHTS)
 #define HAS_SPOT_LIGHTS 0
 #endif
 

@@ -15,6 +15,7 @@ SceneLight convert_light(const nlohmann::json& source, const glm::dmat4& world_f
     const LightKind& kind = *find_light_kind(source.at("type").get<std::string>());
     out.type = kind.type;
     if (kind.is_aimed) aim_light(out, world_from_node);
+    if (!is_finite(out.side)) out.side = SceneLight().side;  // its node is flat along X
     out.position = glm::dvec3(world_from_node[3]);
     const auto color = source.value("color", std::array<double, 3>{1.0, 1.0, 1.0});
     for (glm::length_t c = 0; c < 3; ++c) {

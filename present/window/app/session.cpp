@@ -149,7 +149,7 @@ void ViewSession::request_picture() {
     if (!lights_.fit(state_) && !lights_.are_changing()) {
         lights_.replace(*worker_, state_, pictures_.wanted().settings);
     }
-    // Its settings belong to lights that may not be there yet.
+    // While lights are being replaced, the settings do not fit those that are there.
     if (!lights_.are_changing()) pictures_.request(*worker_);
 }
 

@@ -15,12 +15,12 @@ namespace {
 using nlohmann::json;
 
 // A file of one light on a node that is turned to shine along +X and scaled.
-SceneLight light_of(const json& light) {
+SceneLight light_of(const json& light, const json& scale = {2, 3, 4}) {
     GltfBuilder file;
     file.root["extensions"]["KHR_lights_punctual"]["lights"] = {light};
     file.add_node({{"translation", {1, 2, 3}},
                    {"rotation", {0, -std::sqrt(0.5), 0, std::sqrt(0.5)}},
-                   {"scale", {2, 3, 4}},
+                   {"scale", scale},
                    {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
     return load(file).lights.at(0);
 }
@@ -38,6 +38,13 @@ TEST(LoadSceneLights, HaveTheDefaultsOfTheExtension) {
         EXPECT_EQ(spot.inner_cone, 0.0f);
         EXPECT_FLOAT_EQ(spot.outer_cone, glm::quarter_pi<float>());
     }
+}
+
+// A NaN would differ from itself, and the scene's lights would be new in every frame.
+TEST(LoadSceneLights, HaveASideOnAFlatNode) {
+    const SceneLight spot = light_of({{"type", "spot"}}, {0, 1, 1});
+    EXPECT_EQ(spot, spot);
+    EXPECT_EQ(spot.side, SceneLight().side);
 }
 
 TEST(LoadSceneLights, ReadAllProperties) {
