@@ -8,7 +8,7 @@
 #include <random>
 
 #include "host/base/error.h"
-#include "host/scene/lights/light_generator_hash.h"
+#include "kernels/shared/item_hash.h"
 
 namespace kilolux {
 namespace {
