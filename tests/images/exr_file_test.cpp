@@ -99,7 +99,7 @@ TEST(ExrFile, ExrFormatsOfChannels) {
                                                 : OIIO::TypeDesc::FLOAT;
         EXPECT_EQ(spec.channelformat(c), wanted) << name;
     }
-    EXPECT_EQ(spec.get_string_attribute("compression"), "zip");
+    EXPECT_EQ(spec.get_string_attribute("compression"), kExrCompression);
 }
 
 TEST(ExrFile, HalfColourIsRoundedAndFinite) {
