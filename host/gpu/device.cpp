@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cstdlib>
 #include <mutex>
+#include <utility>
 
 #include "host/base/error.h"
 #include "host/base/system/memory.h"
@@ -179,6 +180,12 @@ Gpu::Gpu(const cl::Device& chosen, int lane_width)
     }
     info = describe(device);
     if (lane_width > 0) info.lane_width = lane_width;
+}
+
+std::future<Gpu> open_meanwhile(std::string choice) {
+    prepare_pocl();
+    return std::async(std::launch::async,
+                      [device = std::move(choice)] { return Gpu(choose_device(device)); });
 }
 
 Gpu::Gpu(cl::Context existing_context, cl::CommandQueue existing_queue, int lane_width)

@@ -3,6 +3,7 @@
 
 #include <CL/opencl.hpp>
 #include <cstdint>
+#include <future>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -58,5 +59,9 @@ struct Gpu {
     std::shared_ptr<MemoryBudget> budget;  // bounds GrowingBuffers; null: only the device does
     bool checks_arguments = false;  // kernels compare their arguments by name and type: for tests
 };
+
+/// Opens choose_device(choice) while the caller works; get() throws as these do. The environment is
+/// changed before it returns.
+std::future<Gpu> open_meanwhile(std::string choice);
 
 }  // namespace kilolux

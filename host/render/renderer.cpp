@@ -21,6 +21,14 @@ void require_whole(const Pipeline& pipeline, const char* what) {
         pipeline.context.memory.band_rows));
 }
 
+std::unique_ptr<Pipeline> make_pipeline(std::shared_ptr<RenderScene> scene,
+                                        const RenderSettings& settings, const auto& device) {
+    return in_stage("renderer", [&] {
+        scene->make_current();
+        return std::make_unique<Pipeline>(std::move(scene), settings, device());
+    });
+}
+
 }  // namespace
 
 std::vector<DeviceInfo> list_devices() {
@@ -35,11 +43,11 @@ std::shared_ptr<RenderScene> shared_scene(const Scene& scene, GlSource gl) {
 
 Renderer::Renderer(const Scene& scene, const RenderSettings& settings, GlSource gl)
     : Renderer(shared_scene(scene, gl), settings) {}
+Renderer::Renderer(const Scene& scene, const RenderSettings& settings, const Gpu& opened)
+    : pipeline_(make_pipeline(shared_scene(scene, GlSource::headless), settings,
+                              [&] { return device_for(settings, opened); })) {}
 Renderer::Renderer(std::shared_ptr<RenderScene> scene, const RenderSettings& settings)
-    : pipeline_(in_stage("renderer", [&] {
-          scene->make_current();
-          return std::make_unique<Pipeline>(std::move(scene), settings, open_device(settings));
-      })) {}
+    : pipeline_(make_pipeline(std::move(scene), settings, [&] { return open_device(settings); })) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;

@@ -47,6 +47,8 @@ class Renderer {
     /// Compiles for the scene and uploads it. The scene must outlive the renderer. Throws Error
     /// when a device, GL or a build fails.
     Renderer(const Scene& scene, const RenderSettings& settings, GlSource gl = GlSource::headless);
+    /// The same on the device that settings.device names, which is open already.
+    Renderer(const Scene& scene, const RenderSettings& settings, const Gpu& opened);
     /// The same for a scene that other renderers use, too, one at a time.
     Renderer(std::shared_ptr<RenderScene> scene, const RenderSettings& settings);
     ~Renderer();

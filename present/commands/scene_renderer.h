@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <future>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -95,6 +96,7 @@ class SceneRenderer {
     RenderSettings settings_of(const BudgetOptions& budget, const FrameRequest& want, double time);
 
     SharedOptions& options_;
+    std::future<Gpu> device_;  // opens while the scene is loaded
     std::function<Camera(const Scene&, int, double)> camera_at_;
     AnimatedScene scene_;
     Asked asked_;
