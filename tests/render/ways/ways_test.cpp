@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <glm/gtx/component_wise.hpp>
 #include <span>
 
 #include "host/scene/gltf/load_scene.h"
@@ -94,13 +93,15 @@ void expect_same_surfaces(const DecodedSurfaces& a, const DecodedSurfaces& b,
     }
 }
 
+double largest_channel(const glm::dvec3& color) { return std::max({color.x, color.y, color.z}); }
+
 // Relative to the largest channel.
 std::vector<double> pixel_differences(const Frame& a, const Frame& b,
                                       std::span<const ShownPixel> shown) {
     std::vector<double> out;
     for (const ShownPixel& pixel : shown) {
         const glm::dvec3 x = pixel_radiance(a, pixel), y = pixel_radiance(b, pixel);
-        out.push_back(glm::compMax(glm::abs(x - y)) / glm::compMax(x));
+        out.push_back(largest_channel(glm::abs(x - y)) / largest_channel(x));
     }
     return out;
 }
