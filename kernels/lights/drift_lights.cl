@@ -6,7 +6,7 @@
 //   drift_count    digits of a chunk's keys
 //   (prefix_sum over digits and chunks)
 //   drift_scatter  a chunk's keys to their places by digit: a stable radix sort, pass after pass
-//   drift_permute  the lights' paths in that order: neighbours are read side by side every frame
+//   drift_paths    the lights' paths in that order: neighbours are read side by side every frame
 //   drift_lights   the lights' rows
 #include "kernels/shared/light.h"
 #include "kernels/shared/light_drift.h"
@@ -14,38 +14,6 @@
 
 #define DIGIT_BITS 8
 #define DIGITS (1 << DIGIT_BITS)
-
-static inline ulong of_halves(uint high, uint low) { return (ulong)high << 32 | low; }
-
-// Time since the start.
-typedef struct Elapsed {
-    uint seconds;  // whole ones
-    ulong rest;    // [2^-64 s]
-} Elapsed;
-
-// The place of a light as a share of a box's extent [2^-63]. Whole turns are dropped.
-static inline ulong reflected(ulong turns, ulong rate, Elapsed elapsed) {
-    ulong speed = abs((long)rate);
-    ulong moved = speed * elapsed.seconds + mul_hi(speed, elapsed.rest);
-    turns = (long)rate < 0 ? turns - moved : turns + moved;
-    return turns >> 63 ? 0ul - turns : turns;
-}
-
-// A light's shares of its box's extent.
-typedef struct DriftShares {
-    ulong x, y, z;
-} DriftShares;
-
-static inline DriftShares shares_at(LightDrift d, Elapsed elapsed) {
-    DriftShares out;
-    out.x =
-        reflected(of_halves(d.high.x, d.low.x), of_halves(d.rate_high.x, d.rate_low.x), elapsed);
-    out.y =
-        reflected(of_halves(d.high.y, d.low.y), of_halves(d.rate_high.y, d.rate_low.y), elapsed);
-    out.z =
-        reflected(of_halves(d.high.z, d.low.z), of_halves(d.rate_high.z, d.rate_low.z), elapsed);
-    return out;
-}
 
 // min + share * extent as a pair, within 2^-45 of |min| + extent.
 static inline float2 place_in_box(ulong share, float min, float min_low, float extent,
@@ -76,24 +44,24 @@ typedef struct DriftPlace {
     float2 x, y, z;  // pairs of floats [m]
 } DriftPlace;
 
-static inline DriftPlace place_at(LightDrift d, DriftBox box, Elapsed elapsed) {
-    DriftShares at = shares_at(d, elapsed);
+static inline DriftPlace place_at(LightDrift d, DriftBox box, DriftTime time) {
     DriftPlace out;
-    out.x = place_in_box(at.x, box.min.x, box.min_low.x, box.extent.x, box.extent_low.x);
-    out.y = place_in_box(at.y, box.min.y, box.min_low.y, box.extent.y, box.extent_low.y);
-    out.z = place_in_box(at.z, box.min.z, box.min_low.z, box.extent.z, box.extent_low.z);
+    out.x = place_in_box(DRIFT_SHARE(d, x, time), box.min.x, box.min_low.x, box.extent.x,
+                         box.extent_low.x);
+    out.y = place_in_box(DRIFT_SHARE(d, y, time), box.min.y, box.min_low.y, box.extent.y,
+                         box.extent_low.y);
+    out.z = place_in_box(DRIFT_SHARE(d, z, time), box.min.z, box.min_low.z, box.extent.z,
+                         box.extent_low.z);
     return out;
 }
 
-kernel void drift_keys(global const LightDrift* restrict drifts,  // [count]
-                       uint count, global const DriftBox* restrict boxes, uint seconds,
-                       uint rest_high, uint rest_low,  // since the start: [s], [2^-64 s]
+kernel void drift_keys(global const LightSwarm* restrict swarm, uint count, DriftTime time,
                        global uint2* restrict keys) {  // out [count]: key, light
     uint i = get_global_id(0);
     if (i >= count) return;
-    LightDrift d = drifts[i];
-    DriftBox box = boxes[d.high.w];
-    DriftPlace p = place_at(d, box, (Elapsed){seconds, of_halves(rest_high, rest_low)});
+    LightDrift d = swarm_light(swarm, i);
+    DriftBox box = swarm->box[d.high.w];
+    DriftPlace p = place_at(d, box, time);
     float scale = box.extent.w;
     uint key = light_order_key(cell_at(p.x, scale), cell_at(p.y, scale), cell_at(p.z, scale));
     keys[i] = (uint2)(key, i);
@@ -135,23 +103,23 @@ kernel void drift_scatter(global const uint2* restrict keys,  // [count]
     }
 }
 
-kernel void drift_permute(global const uint16* restrict drifts,  // [count]: LightDrift
-                          uint count, global const uint2* restrict order,
-                          global uint16* restrict ordered) {  // out [count]
+kernel void drift_paths(global const LightSwarm* restrict swarm, uint count,
+                        global const uint2* restrict order,    // [count]: key, light
+                        global LightDrift* restrict drifts) {  // out [count], in that order
     uint i = get_global_id(0);
-    if (i < count) ordered[i] = drifts[order[i].y];
+    if (i < count) drifts[i] = swarm_light(swarm, order[i].y);
 }
 
-kernel void drift_lights(global const LightDrift* restrict drifts,  // [count]
-                         uint count, global const DriftBox* restrict boxes, uint seconds,
-                         uint rest_high, uint rest_low,        // since the start: [s], [2^-64 s]
+kernel void drift_lights(global const LightSwarm* restrict swarm, uint count,
+                         global const LightDrift* restrict drifts,  // [count]
+                         DriftTime time,
                          uint first,                           // row of the first light
                          global WorldLight* restrict world) {  // out: rows first .. first + count
     uint i = get_global_id(0);
     if (i >= count) return;
     LightDrift d = drifts[i];
-    DriftBox box = boxes[d.high.w];
-    DriftPlace p = place_at(d, box, (Elapsed){seconds, of_halves(rest_high, rest_low)});
+    DriftBox box = swarm->box[d.high.w];
+    DriftPlace p = place_at(d, box, time);
     WorldLight row;
     row.light = point_light_rows(
         (float4)(p.x.x, p.y.x, p.z.x, box.min.w),

@@ -32,7 +32,7 @@ STEPS = (
     (r"shared/(gbuffer|store|pack)", GBUFFER + PICTURES),
     (r"shared/(texture|mips|surface_of|surface_scene|material|triangle)", SURFACES + PICTURES),
     (r"shared/raster_row", TRIANGLES),
-    (r"shared/(hash|light_drift|light_order|light_transform|light\.)", LIGHTS + LIGHTING + TAILS),
+    (r"shared/(hash|item_hash|light_drift|light_order|light_transform|light\.)", LIGHTS + LIGHTING + TAILS),
     (r"shared/light_profile", PROFILES),
     (r"shared/light_tree", TREE),
     (r"shared/shadow", SHADOWS),

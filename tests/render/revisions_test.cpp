@@ -46,7 +46,7 @@ TEST(Revisions, AClipOfTheCameraBuildsNoShadowsAndUploadsNoLights) {
     Renderer renderer(scene, settings);
     const Frame first = renderer.render(first_camera(scene), 0.0);
     EXPECT_EQ(first.stats.shadow_scenes_built, 0u) << "the renderer built it";
-    EXPECT_EQ(first.stats.lights_uploaded, 1u + 40u);
+    EXPECT_EQ(first.stats.lights_uploaded, 1u) << "the device makes the generated ones";
     Frame last = first;
     for (const double time : {0.5, 1.0, 2.5}) {
         moving.set_time(time);

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "host/scene/generated/scenes.h"
-#include "host/scene/lights/light_generator_hash.h"
+#include "kernels/shared/item_hash.h"
 
 namespace kilolux {
 

@@ -9,15 +9,14 @@
 
 namespace kilolux {
 
-/// The generated lights of LightOptions on the device: their paths are uploaded once, then the
-/// device moves and orders them. Their places at a time do not depend on earlier times.
+/// The generated lights of LightOptions, which the device makes, moves and orders. Their places at
+/// a time do not depend on earlier times.
 class GeneratedLights {
  public:
     GeneratedLights(const Gpu& gpu, const Tuning& tuning) : drift_(gpu, tuning) {}
 
-    /// Takes the lights of `options` in the scene as it is now, at `time` [s]. Returns whether
-    /// paths were uploaded.
-    bool set(const LightOptions& options, const Scene& scene, double time);
+    /// Takes the lights of `options` in the scene as it is now, at `time` [s].
+    void set(const LightOptions& options, const Scene& scene, double time);
 
     std::size_t count() const { return count_; }
 
@@ -37,14 +36,11 @@ class GeneratedLights {
     SceneLight at(std::size_t place) const { return (*generator_)[order_[place]]; }
 
  private:
-    void stage(const LightGenerator& paths, std::size_t count);
-
     DriftLights drift_;
     std::optional<LightGenerator> generator_;  // of the time
-    std::optional<LightGenerator> staged_;     // of the start, on the device
     std::size_t count_ = 0;
     Box box_;
-    double time_ = 0.0, start_ = 0.0;   // [s]
+    double time_ = 0.0;                 // [s]
     std::optional<double> order_time_;  // of the device's order; none: to be made
     std::vector<std::uint32_t> order_;  // on the host, if it was read
 };

@@ -203,7 +203,7 @@ void LightSource::update(double time, const Camera& camera, FrameStats& stats) {
     const bool has_moved = time_ != time;
     if (has_moved) {
         time_.reset();  // until it is done
-        if (generated_.set(options_, scene_, time)) stats.lights_uploaded += options_.count;
+        generated_.set(options_, scene_, time);
         time_ = time;
         input_camera_.reset();
         is_drifted_ = false;

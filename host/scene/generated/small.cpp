@@ -9,7 +9,7 @@
 #include "host/scene/camera.h"
 #include "host/scene/generated/bake.h"
 #include "host/scene/generated/noise.h"
-#include "host/scene/lights/light_generator_hash.h"
+#include "kernels/shared/item_hash.h"
 
 namespace kilolux {
 namespace {

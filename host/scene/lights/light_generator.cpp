@@ -7,11 +7,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "host/base/error.h"
-#include "host/scene/lights/light_generator_hash.h"
+#include "host/base/light_cells.h"
+#include "host/base/point_pair.h"
 
 namespace kilolux {
 namespace {
@@ -27,8 +29,6 @@ constexpr double kMinCrossing = 8.0;           // [s] that a light takes at leas
 constexpr std::uint64_t kLightsAtOnce = 4096;  // fewer are not worth a task
 
 constexpr double kGapOfRange = 0.25;  // between an object's box and the lights around it
-
-enum Stream : std::uint64_t { kPhase = 0, kSpeed = 3, kHue = 6, kPart = 7 };
 
 LightRegion region_of(const LightOptions& options, const Scene& scene, double gap) {
     if (!options.box.empty()) return {options.box, {}};
@@ -51,18 +51,6 @@ std::vector<Box> parts_of(const LightRegion& region) {
         rest.max[axis] = region.hole.max[axis];
     }
     return parts;
-}
-
-// The part that a number in [0, 1) selects, in proportion to the parts' volumes.
-std::uint32_t part_at(const std::vector<Box>& parts, double unit) {
-    double all = 0.0;
-    for (const Box& part : parts) all += volume(part);
-    double left = unit * all;
-    for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
-        left -= volume(parts[i]);
-        if (left < 0.0) return static_cast<std::uint32_t>(i);
-    }
-    return static_cast<std::uint32_t>(parts.size() - 1);
 }
 
 void check(const LightOptions& options, const Box& box, double time) {
@@ -140,35 +128,51 @@ double exposing_intensity(const LightRegion& shell, const glm::dvec3& inside, do
     return intensity_of(volume(shell.outer) - volume(shell.hole), count, reach);
 }
 
-// A saturated colour whose brightest channel is 1, a fifth of it white. Dark hues get more white,
-// up to a luminance of 0.45, so that blue lights contribute as well.
-glm::dvec3 colour(double hue) {
-    const double h = hue * 6.0;
-    const auto ramp = [](double x) { return std::clamp(x, 0.0, 1.0); };
-    const glm::dvec3 pure(ramp(std::abs(h - 3.0) - 1.0), ramp(2.0 - std::abs(h - 2.0)),
-                          ramp(2.0 - std::abs(h - 4.0)));
-    const double luminance = 0.2126 * pure.x + 0.7152 * pure.y + 0.0722 * pure.z;
-    const double white = std::max(0.2, (0.45 - luminance) / (1.0 - luminance));
-    return glm::dvec3(white) + (1.0 - white) * pure;
+// A share in [0, 1] in units of 2^-64; 1 is one unit less.
+ulong fixed_point(double share) {
+    const double units = share * 0x1p64;
+    return units < 0x1p64 ? static_cast<ulong>(units) : ~ulong{0};
 }
 
-// Turns of a light that drifts along an axis of this extent and is reflected at its ends. The phase
-// is uniform over the whole period, so lights fill the box uniformly at every time.
-double turns_at(double extent, double phase, double speed, double time) {
-    const double turns = phase + speed * time / (2.0 * extent);
-    return turns - std::floor(turns);
+// Twice the turns a second of the fastest light along an axis of this extent.
+ulong twice_most_turns(double extent) {
+    if (!(extent > 0.0)) return 0;
+    return fixed_point(std::min(kMaxSpeed, extent / kMinCrossing) / extent);
 }
 
-// Position at `time` of such a light.
-double reflected_drift(double extent, double phase, double speed, double time) {
-    if (!(extent > 0.0)) return 0.0;
-    const double period = 2.0 * extent;
-    const double there = turns_at(extent, phase, speed, time) * period;
-    return std::min(there, period - there);
+// A box that lights of a range drift in; `share` of all lights are in it or one before it.
+DriftBox drift_box(const Box& box, double range, double share) {
+    const glm::dvec3 extents = box.size();
+    const PointPair corner = point_pair(box.min.x, box.min.y, box.min.z);
+    const PointPair size = point_pair(extents.x, extents.y, extents.z);
+    const ulong x = twice_most_turns(extents.x), y = twice_most_turns(extents.y),
+                z = twice_most_turns(extents.z), w = fixed_point(share);
+    DriftBox out{corner.high,
+                 corner.low,
+                 size.high,
+                 size.low,
+                 {high_half(x), high_half(y), high_half(z), high_half(w)},
+                 {low_half(x), low_half(y), low_half(z), low_half(w)}};
+    out.min.w = static_cast<float>(range);
+    out.extent.w = static_cast<float>(1.0 / light_cell_edge(out.min.w));
+    return out;
 }
 
-double drift_speed(double extent, double unit) {
-    return (2.0 * unit - 1.0) * std::min(kMaxSpeed, extent / kMinCrossing);
+// Parts get lights in proportion to their volumes.
+LightSwarm light_swarm(const LightOptions& options, const std::vector<Box>& parts) {
+    LightSwarm out{high_half(options.seed),
+                   low_half(options.seed),
+                   static_cast<float>(options.intensity),
+                   static_cast<uint>(parts.size()),
+                   {}};
+    double all = 0.0, sum = 0.0;
+    for (const Box& part : parts) all += volume(part);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        sum += volume(parts[i]);
+        const double share = sum / all;  // of an empty or endless volume: not a number
+        out.box[i] = drift_box(parts[i], options.radius, share >= 0.0 ? share : 0.0);
+    }
+    return out;
 }
 
 }  // namespace
@@ -192,53 +196,40 @@ LightScale automatic_light_scale(const LightOptions& options, const Scene& scene
     return scale;
 }
 
+DriftTime drift_time(double time) {
+    double whole = std::floor(time), rest = time - whole;
+    if (rest == 1.0) whole += 1.0, rest = 0.0;  // rounded
+    const double wrapped = std::fmod(std::abs(whole), 0x1p64);
+    const ulong magnitude = static_cast<ulong>(wrapped);
+    const ulong seconds = whole < 0.0 ? 0 - magnitude : magnitude, part = fixed_point(rest);
+    return {high_half(seconds), low_half(seconds), high_half(part), low_half(part)};
+}
+
 LightGenerator::LightGenerator(const LightOptions& options, const Scene& scene, double time)
-    : options_(options), time_(time) {
+    : options_(options) {
     const LightScale scale = automatic_light_scale(options_, scene);
     check(options, scale.region.outer, time);
     options_.radius = scale.radius;
     options_.intensity = scale.intensity;
     parts_ = parts_of(scale.region);
+    swarm_ = light_swarm(options_, parts_);
+    time_ = drift_time(time);
 }
 
-LightTrack LightGenerator::track(std::uint64_t light) const {
-    const std::uint64_t key = item_key(options_.seed, light);
-    const auto random = [&](std::uint64_t stream) { return unit_double(item_bits(key, stream)); };
-    LightTrack out;
-    if (parts_.size() > 1) out.part = part_at(parts_, random(kPart));
-    const Box& box = parts_[out.part];
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto stream = static_cast<std::uint64_t>(axis);
-        const double extent = box.max[axis] - box.min[axis];
-        out.speed[axis] = drift_speed(extent, random(kSpeed + stream));
-        out.phase[axis] = random(kPhase + stream);
-    }
-    out.intensity = glm::vec3(colour(random(kHue)) * options_.intensity);
-    return out;
-}
-
-SceneLight LightGenerator::at(const LightTrack& track) const {
-    const Box& box = parts_[track.part];
+SceneLight LightGenerator::operator[](std::uint64_t light) const {
+    const LightDrift drift = swarm_light(&swarm_, light);
+    const Box& box = parts_[drift.high.w];
+    const std::array<ulong, 3> shares{DRIFT_SHARE(drift, x, time_), DRIFT_SHARE(drift, y, time_),
+                                      DRIFT_SHARE(drift, z, time_)};
     SceneLight out;
     for (int axis = 0; axis < 3; ++axis) {
-        const double extent = box.max[axis] - box.min[axis];
-        const double at = reflected_drift(extent, track.phase[axis], track.speed[axis], time_);
-        out.position[axis] = std::clamp(box.min[axis] + at, box.min[axis], box.max[axis]);
+        const double share = static_cast<double>(shares[static_cast<std::size_t>(axis)]) * 0x1p-63;
+        const double at = box.min[axis] + share * (box.max[axis] - box.min[axis]);
+        out.position[axis] = std::clamp(at, box.min[axis], box.max[axis]);
     }
-    out.intensity = track.intensity;
+    out.intensity = {bits_float(drift.low.w), bits_float(drift.rate_high.w),
+                     bits_float(drift.rate_low.w)};
     out.range = static_cast<float>(options_.radius);
-    return out;
-}
-
-LightTurns LightGenerator::turns(const LightTrack& track) const {
-    const glm::dvec3 extents = parts_[track.part].size();
-    LightTurns out;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double extent = extents[axis];
-        if (!(extent > 0.0)) continue;
-        out.at[axis] = turns_at(extent, track.phase[axis], track.speed[axis], time_);
-        out.rate[axis] = track.speed[axis] / (2.0 * extent);
-    }
     return out;
 }
 

@@ -7,6 +7,7 @@
 
 #include "host/scene/lights/light_region.h"
 #include "host/scene/scene.h"
+#include "kernels/shared/light_drift.h"
 
 namespace kilolux {
 
@@ -27,40 +28,23 @@ struct LightOptions {
 std::vector<SceneLight> generate_lights(const LightOptions& options, const Scene& scene,
                                         double time);
 
-/// The properties of a generated light that do not change with time.
-struct LightTrack {
-    glm::dvec3 phase{0.0};      // along each axis of its part, in turns
-    glm::dvec3 speed{0.0};      // [m/s]
-    glm::vec3 intensity{0.0f};  // [cd]
-    std::uint32_t part = 0;     // of the region, in which it stays
-};
-
-/// How far along its path a light is, by axis: turns of its period, and turns a second [1/s]. A
-/// period is twice the extent of its part.
-struct LightTurns {
-    glm::dvec3 at{0.0};  // [0, 1)
-    glm::dvec3 rate{0.0};
-};
+/// A time [s] as the device takes it.
+DriftTime drift_time(double time);
 
 /// Single lights of `options` at a time [s], as generate_lights() makes them.
 class LightGenerator {
  public:
     /// Throws Error when the box, the radius, the intensity or the time is not finite.
     LightGenerator(const LightOptions& options, const Scene& scene, double time);
-    SceneLight operator[](std::uint64_t light) const { return at(track(light)); }
+    SceneLight operator[](std::uint64_t light) const;
 
-    /// A light in two steps: the first takes longer, and its result is the same at any time.
-    LightTrack track(std::uint64_t light) const;
-    SceneLight at(const LightTrack& track) const;
-    LightTurns turns(const LightTrack& track) const;
+    /// What makes them, for the device.
+    const LightSwarm& swarm() const { return swarm_; }
 
-    /// The boxes that lights stay in: LightTrack::part.
+    /// The boxes that lights stay in: LightDrift::high.w.
     const std::vector<Box>& parts() const { return parts_; }
 
-    /// Range of every light [m].
-    float range() const { return static_cast<float>(options_.radius); }
-
-    /// Whether the lights of another time have the same tracks.
+    /// Whether the lights of another time have the same paths.
     bool has_paths_of(const LightGenerator& other) const {
         return options_ == other.options_ && parts_ == other.parts_;
     }
@@ -68,7 +52,8 @@ class LightGenerator {
  private:
     LightOptions options_;    // nothing automatic but the box
     std::vector<Box> parts_;  // of the region: one, or six about a hole
-    double time_;
+    LightSwarm swarm_{};
+    DriftTime time_{};
 };
 
 /// Range [m], intensity [cd] and region that `options` stands for when they are automatic.

@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
+#include "host/base/light_cells.h"
+#include "host/base/point_pair.h"
 #include "host/stages/lights/move_lights.h"
 #include "tests/support/test_gpu.h"
 
@@ -15,33 +16,61 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-// The path of a light.
-struct Path {
-    Point min{}, extent{}, turns{}, rate{};
+DriftTime time_of(double seconds) {
+    const double whole = std::floor(seconds);
+    return {0, static_cast<uint>(whole), static_cast<uint>(std::ldexp(seconds - whole, 32)), 0};
+}
 
-    Point at(double seconds) const {
-        Point out{};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            double t = turns[axis] + rate[axis] * seconds;
-            t -= std::floor(t);
-            out[axis] = min[axis] + 2.0 * extent[axis] * std::min(t, 1.0 - t);
-        }
-        return out;
-    }
+// A share of 1 in units of 2^-64, by halves.
+ulong units(double share) { return static_cast<ulong>(std::ldexp(share, 64)); }
+double share_of(uint high, uint low) {
+    return std::ldexp(static_cast<double>(of_halves(high, low)), -64);
+}
+// Of two's complement.
+double rate_of(uint high, uint low) {
+    return std::ldexp(static_cast<double>(static_cast<std::int64_t>(of_halves(high, low))), -64);
+}
+
+// A box in which the fastest light makes `rate` turns a second along each axis.
+struct Place {
+    Point min{}, extent{};
+    double rate = 0.25;
 };
 
-// Paths of one box on the device.
+// A swarm of several boxes, of which each gets as many lights as the others.
+LightSwarm swarm_of(const std::vector<Place>& places, float range = 2.5f, uint seed = 11) {
+    LightSwarm out{0, seed, 8.0f, static_cast<uint>(places.size()), {}};
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const auto& [min, extent, rate] = places[i];
+        const PointPair corner = point_pair(min[0], min[1], min[2]);
+        const PointPair size = point_pair(extent[0], extent[1], extent[2]);
+        const ulong most = units(2.0 * rate);
+        const bool is_last = i + 1 == places.size();
+        const ulong share = is_last ? ~ulong{0} : units(static_cast<double>(i + 1) / out.boxes);
+        const uint high = high_half(most), low = low_half(most);
+        out.box[i] = {corner.high,
+                      corner.low,
+                      size.high,
+                      size.low,
+                      {high, high, high, high_half(share)},
+                      {low, low, low, low_half(share)}};
+        out.box[i].min.w = range;
+        out.box[i].extent.w = static_cast<float>(1.0 / light_cell_edge(range));
+    }
+    return out;
+}
+
+// A swarm on the device, and its lights as doubles have them.
 class Drift {
  public:
-    explicit Drift(const std::vector<Path>& paths, int chunks = 16, float range = 2.5f)
-        : tuning_(tuning_of(chunks)), lights_(gpu_, tuning_), count_(paths.size()) {
-        const DriftBox box = drift_box(paths[0].min, paths[0].extent, range);
-        const std::span<LightDrift> rows = lights_.stage(count_, {&box, 1});
-        for (std::size_t i = 0; i < count_; ++i) {
-            const auto number = static_cast<float>(i);
-            rows[i] = light_drift(paths[i].turns, paths[i].rate, {number, 2.0f, 3.0f}, 0);
-        }
-        lights_.upload();
+    explicit Drift(const std::vector<Place>& places, std::size_t count, int chunks = 16,
+                   float range = 2.5f)
+        : places_(places),
+          swarm_(swarm_of(places, range)),
+          tuning_(tuning_of(chunks)),
+          lights_(gpu_, tuning_),
+          count_(count) {
+        lights_.set(swarm_, count);
     }
 
     // Rows from `first` on, ordered by their places at `ordered`.
@@ -49,11 +78,29 @@ class Drift {
         const DeviceArray<WorldLight> world(
             new_buffer(gpu_, std::vector<WorldLight>(first + count_ + 1)));
         StageTimer timer;
-        lights_.order(ordered, timer);
-        lights_.place(world, first, seconds, timer);
+        lights_.order(time_of(ordered), timer);
+        lights_.place(world, first, time_of(seconds), timer);
         return download(gpu_, world);
     }
     std::vector<std::uint32_t> order() const { return lights_.download_order(); }
+
+    LightDrift light(std::uint32_t number) const { return swarm_light(&swarm_, number); }
+
+    Point at(std::uint32_t number, double seconds) const {
+        const LightDrift d = light(number);
+        const Place& place = places_[d.high.w];
+        const Point turns{share_of(d.high.x, d.low.x), share_of(d.high.y, d.low.y),
+                          share_of(d.high.z, d.low.z)};
+        const Point rate{rate_of(d.rate_high.x, d.rate_low.x), rate_of(d.rate_high.y, d.rate_low.y),
+                         rate_of(d.rate_high.z, d.rate_low.z)};
+        Point out{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            double t = turns[axis] + rate[axis] * seconds;
+            t -= std::floor(t);
+            out[axis] = place.min[axis] + 2.0 * place.extent[axis] * std::min(t, 1.0 - t);
+        }
+        return out;
+    }
 
  private:
     Tuning tuning_of(int chunks) const {
@@ -62,6 +109,8 @@ class Drift {
         return out;
     }
 
+    std::vector<Place> places_;
+    LightSwarm swarm_;
     Gpu gpu_ = test_gpu();
     Tuning tuning_;
     DriftLights lights_;
@@ -77,69 +126,65 @@ double distance(const Point& a, const Point& b) {
     return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
 }
 
-std::vector<Path> random_paths(std::size_t count, const Point& min, const Point& extent) {
-    std::mt19937_64 random(11);
-    std::uniform_real_distribution<double> unit(0.0, 1.0);
-    std::vector<Path> out(count, {min, extent, {}, {}});
-    for (Path& path : out) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            path.turns[axis] = unit(random);
-            path.rate[axis] = unit(random) - 0.5;
-        }
-    }
-    return out;
-}
-
 TEST(DriftLights, MoveAsDoublesDo) {
     for (const double far : {0.0, 10.0, 1048576.0}) {
-        const std::vector<Path> paths =
-            random_paths(50, {far * -0.3, far * 0.1, far * 0.4}, {40.0, 3.0, 17.0});
-        Drift drift(paths);
-        for (const double seconds : {0.0, 0.3, 1.0, 2.625, 1000.75}) {
+        Drift drift({{{far * -0.3, far * 0.1, far * 0.4}, {40.0, 3.0, 17.0}}}, 50);
+        for (const double seconds : {0.0, 0.3125, 1.0, 2.625, 1000.75}) {
             const std::vector<WorldLight> rows = drift.rows(seconds);
             const std::vector<std::uint32_t> order = drift.order();
-            ASSERT_EQ(order.size(), paths.size());
-            for (std::size_t i = 0; i < paths.size(); ++i) {
+            ASSERT_EQ(order.size(), 50u);
+            for (std::size_t i = 0; i < order.size(); ++i) {
                 // Doubles lose bits of the turns, too: those of whole turns.
                 const double most = std::ldexp(40.0 + far, -45) + std::ldexp(seconds * 40.0, -51);
-                EXPECT_LE(distance(position(rows[i]), paths[order[i]].at(seconds)), most)
+                EXPECT_LE(distance(position(rows[i]), drift.at(order[i], seconds)), most)
                     << far << ' ' << seconds << ' ' << i;
             }
         }
     }
 }
 
-TEST(DriftLights, TurnAtTheEndsOfTheirBox) {
-    std::vector<Path> paths;
-    for (const double turns : {0.0, 0.25, 0.5, 0.75, 0.999999999}) {
-        for (const double rate : {-0.499, -0.25, 0.0, 0.25, 0.499}) {
-            paths.push_back({{1.0, 1.0, 1.0}, {4.0, 0.0, 2.0}, {turns, turns, turns}, {}});
-            paths.back().rate.fill(rate);
-        }
-    }
-    Drift drift(paths);
-    const std::vector<WorldLight> rows = drift.rows(0.999);
+// The device chooses each light's box and intensity as the host does.
+TEST(DriftLights, RowsAreTheHostsPointLights) {
+    Drift drift({{{0, 0, 0}, {1, 1, 1}}, {{10, 0, 0}, {1, 2, 3}}, {{0, 20, 0}, {5, 1, 0}}}, 3000);
+    const std::vector<WorldLight> rows = drift.rows(0.75, 0.5, 2);
     const std::vector<std::uint32_t> order = drift.order();
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-        EXPECT_LE(distance(position(rows[i]), paths[order[i]].at(0.999)), std::ldexp(5.0, -45));
-    }
-}
-
-TEST(DriftLights, RowsArePointLightsOfTheirIntensity) {
-    Drift drift(random_paths(3, {0, 0, 0}, {1, 1, 1}));
-    const std::vector<WorldLight> rows = drift.rows(0.0, 0.0, 2);
-    const std::vector<std::uint32_t> order = drift.order();
-    for (const std::size_t other : {0u, 1u, 5u}) {
+    for (const std::size_t other : {0u, 1u, 3002u}) {
         EXPECT_EQ(rows[other].light.position_range.w, 0.0f) << "another's row " << other;
     }
-    for (std::size_t i = 0; i < 3; ++i) {
+    std::array<int, 3> lights_of_box{};
+    for (std::size_t i = 0; i < order.size(); ++i) {
         const Light& light = rows[2 + i].light;
-        EXPECT_EQ(light.position_range.w, 2.5f);
-        EXPECT_EQ(light.color_scale.x, static_cast<float>(order[i]));
-        EXPECT_EQ(light.color_scale.z, 3.0f);
-        EXPECT_EQ(light.color_scale.w, 1.0f);
-        EXPECT_EQ(light.axis_cos.w, -1.0f);
+        const LightDrift expected = drift.light(order[i]);
+        ++lights_of_box.at(expected.high.w);
+        ASSERT_LE(distance(position(rows[2 + i]), drift.at(order[i], 0.75)), 0x1p-40);
+        ASSERT_EQ(float_bits(light.color_scale.x), expected.low.w);
+        ASSERT_EQ(float_bits(light.color_scale.y), expected.rate_high.w);
+        ASSERT_EQ(float_bits(light.color_scale.z), expected.rate_low.w);
+        ASSERT_EQ(std::max({light.color_scale.x, light.color_scale.y, light.color_scale.z}), 8.0f);
+        ASSERT_EQ(light.position_range.w, 2.5f);
+        ASSERT_EQ(light.color_scale.w, 1.0f);
+        ASSERT_EQ(light.axis_cos.w, -1.0f);
     }
+    // Binomial with 3000 and 1/3: standard deviation 26.
+    for (const int lights : lights_of_box) EXPECT_NEAR(lights, 1000, 130);
+}
+
+// A light at either end turns back; at the middle of its period it is at the far end.
+TEST(DriftLights, TurnAtTheEndsOfTheirBox) {
+    const auto share = [](double turns, double rate, double seconds) {
+        const ulong speed = units(std::abs(rate));
+        return std::ldexp(static_cast<double>(drift_share(
+                              units(turns), rate < 0.0 ? 0 - speed : speed, time_of(seconds))),
+                          -63);
+    };
+    EXPECT_EQ(share(0.0, 0.25, 0.0), 0.0);
+    EXPECT_EQ(share(0.0, 0.25, 2.0), 1.0);
+    EXPECT_EQ(share(0.0, -0.25, 2.0), 1.0);
+    EXPECT_EQ(share(0.0, -0.25, 1.5), 0.75);
+    EXPECT_EQ(share(0.25, 0.25, 1.5), 0.75);
+    EXPECT_EQ(share(0.25, 0.25, 4.0e9), 0.5) << "whole periods";
+    EXPECT_EQ(share(0.875, 0.25, 1.0), 0.25);
+    EXPECT_EQ(share(0.125, -0.25, 1.0), 0.25);
 }
 
 double mean_step(const std::vector<WorldLight>& rows, std::size_t count) {
@@ -153,7 +198,7 @@ double mean_step(const std::vector<WorldLight>& rows, std::size_t count) {
 
 TEST(DriftLights, NeighboursInSpaceAreNeighbours) {
     constexpr std::size_t kCount = 20000;
-    Drift drift(random_paths(kCount, {-20, -20, -20}, {40, 40, 40}));
+    Drift drift({{{-20, -20, -20}, {40, 40, 40}}}, kCount);
     // 1.5 m from one to the next on a lattice; 26 m at random.
     EXPECT_LT(mean_step(drift.rows(0.0, 0.0), kCount), 4.0);
     EXPECT_LT(mean_step(drift.rows(7.5, 7.5), kCount), 4.0);
@@ -163,15 +208,15 @@ TEST(DriftLights, NeighboursInSpaceAreNeighbours) {
 // Stable, and the same for any chunks: each number occurs once, and cells alone decide the order.
 TEST(DriftLights, OrderIsAPermutationForAnyChunks) {
     for (const std::size_t count : {1u, 2u, 255u, 257u, 70001u}) {
-        const std::vector<Path> paths = random_paths(count, {3, -20, 5}, {9, 40, 1});
-        Drift drift(paths, 16);
+        const Place box{{3, -20, 5}, {9, 40, 1}};
+        Drift drift({box}, count, 16);
         drift.rows(1.5, 1.5);
         const std::vector<std::uint32_t> expected = drift.order();
         std::vector<std::uint32_t> numbers = expected;
         std::ranges::sort(numbers);
         for (std::uint32_t i = 0; i < count; ++i) ASSERT_EQ(numbers[i], i);
         for (const int chunks : {1, 7}) {
-            Drift other(paths, chunks);
+            Drift other({box}, count, chunks);
             other.rows(1.5, 1.5);
             EXPECT_EQ(other.order(), expected) << chunks << " chunks of " << count;
         }
@@ -179,21 +224,18 @@ TEST(DriftLights, OrderIsAPermutationForAnyChunks) {
 }
 
 TEST(DriftLights, EqualPlacesKeepTheirOrder) {
-    Path path{{0, 0, 0}, {8, 8, 8}, {0.3, 0.3, 0.3}, {}};
-    Drift drift(std::vector<Path>(1000, path));
+    Drift drift({{{1, 2, 3}, {0, 0, 0}}}, 1000);
     drift.rows(0.0);
     EXPECT_TRUE(std::ranges::is_sorted(drift.order()));
 }
 
 TEST(DriftLights, BoxesOfAnySize) {
     for (const double extent : {0.0, 1e-6, 1e6, 1e12}) {
-        const std::vector<Path> paths =
-            random_paths(100, {-extent, extent, 0.0}, {extent, extent, extent});
-        Drift drift(paths, 16, 1e-3f);
+        Drift drift({{{-extent, extent, 0.0}, {extent, extent, extent}}}, 100, 16, 1e-3f);
         const std::vector<WorldLight> rows = drift.rows(0.5, 0.5);
         const std::vector<std::uint32_t> order = drift.order();
-        for (std::size_t i = 0; i < paths.size(); ++i) {
-            EXPECT_LE(distance(position(rows[i]), paths[order[i]].at(0.5)),
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            EXPECT_LE(distance(position(rows[i]), drift.at(order[i], 0.5)),
                       std::ldexp(2.0 * extent, -45))
                 << extent;
         }
@@ -203,11 +245,10 @@ TEST(DriftLights, BoxesOfAnySize) {
 TEST(DriftLights, NoLightsAreNone) {
     const Gpu gpu = test_gpu();
     DriftLights lights(gpu, default_tuning(gpu.info));
-    EXPECT_TRUE(lights.stage(0, {}).empty());
-    lights.upload();
+    lights.set(swarm_of({{}}), 0);
     StageTimer timer;
-    lights.order(0.0, timer);
-    lights.place({}, 0, 0.0, timer);
+    lights.order({}, timer);
+    lights.place({}, 0, {}, timer);
     EXPECT_TRUE(lights.download_order().empty());
 }
 

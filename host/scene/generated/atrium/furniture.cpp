@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/scene/lights/light_generator_hash.h"
+#include "kernels/shared/item_hash.h"
 
 namespace kilolux {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "host/scene/generated/atrium/textures.h"
-#include "host/scene/lights/light_generator_hash.h"
+#include "kernels/shared/item_hash.h"
 
 namespace kilolux {
 namespace {
