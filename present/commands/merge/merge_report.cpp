@@ -2,6 +2,7 @@
 #include "present/commands/merge/merge_report.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "host/base/error.h"
 #include "host/base/log.h"
@@ -66,13 +67,14 @@ std::vector<ReportRow> rows_of(const Result& result) {
 std::vector<std::vector<ReportRow>> keep_own_rows(std::vector<Result>& results) {
     std::vector<std::vector<ReportRow>> parts;
     for (Result& result : results) {
-        std::vector<ReportRow>& rows = parts.emplace_back(rows_of(result));
+        std::vector<ReportRow> rows = rows_of(result);
         TextTable& table = result.table;
         const bool is_first = result.document.value("shard", "0/1").starts_with("0/");
         if (!is_first && !rows.empty()) {
             rows.erase(rows.begin());
             table.rows.erase(table.rows.begin());
         }
+        parts.push_back(std::move(rows));
         for (std::size_t row = 0; row < table.rows.size(); ++row)
             result.points.push_back(field_of(table, row, "setting"));
     }
