@@ -11,12 +11,6 @@
 namespace kilolux {
 namespace {
 
-// Whether kernels/device/pocl_builtins.h replaces the driver's opencl-c.h. Tested with PoCL 3.1
-// only.
-bool takes_our_declarations(const DeviceInfo& device) {
-    return device.platform == "Portable Computing Language" && device.driver.starts_with("3.1");
-}
-
 // What begins a program on this device.
 std::string prologue(const DeviceInfo& device) {
     const std::string all(kKernelPrologue);
@@ -52,6 +46,10 @@ KernelProgram build(const Gpu& gpu, const std::string& file, const std::string& 
 }
 
 }  // namespace
+
+bool takes_our_declarations(const DeviceInfo& device) {
+    return device.platform == "Portable Computing Language" && device.driver.starts_with("3.1");
+}
 
 BuildOptions& BuildOptions::define(std::string_view name, int value) {
     return define(name, std::to_string(value));

@@ -102,6 +102,10 @@ class ProgramCache {
     std::vector<BuildSpan> builds_;
 };
 
+/// Whether kernels/device/pocl_builtins.h replaces the driver's opencl-c.h. Tested with PoCL 3.1
+/// only.
+bool takes_our_declarations(const DeviceInfo& device);
+
 /// The program of one stage, `kernels/<stem>.cl`, built for the device with its lane width as VW.
 /// Copies of a Gpu share programs: the same text and options are built once.
 /// Throws Error with file, device, options and the compiler's log; Interrupted, before it builds,
@@ -109,8 +113,8 @@ class ProgramCache {
 KernelProgram build_program(const Gpu& gpu, std::string_view stem,
                             const BuildOptions& options = {});
 
-/// The same of a text without includes, which `name` names in messages. On PoCL 3.1 it may call
-/// only the built-in functions that kernels/device/pocl_builtins.h declares.
+/// The same of a text without includes, which `name` names in messages. Where the device
+/// takes_our_declarations(), it may call only the built-in functions that they declare.
 KernelProgram build_text(const Gpu& gpu, const std::string& name, std::string_view text,
                          const BuildOptions& options);
 

@@ -2,8 +2,8 @@
 // A point on a surface, and the values that shading with any light needs of it.
 //
 // Compile-time switches: SHADING, HAS_METALLIC, HAS_SPECULAR (KHR_materials_ior and
-// KHR_materials_specular), HAS_UNLIT, HAS_SPOT_LIGHTS. Features that the scene lacks are not
-// compiled in; compiling them in changes no bit of the radiance.
+// KHR_materials_specular), HAS_UNLIT. Features that the scene lacks are not compiled in; compiling
+// them in changes no bit of the radiance.
 #ifndef KILOLUX_SHARED_SURFACE_H
 #define KILOLUX_SHARED_SURFACE_H
 #include "kernels/shared/evaluate_modes.h"
@@ -12,9 +12,6 @@
 
 #ifndef SHADING
 #define SHADING SHADING_LAMBERT
-#endif
-#ifndef HAS_SPOT_LIGHTS
-#define HAS_SPOT_LIGHTS 0
 #endif
 #ifndef HAS_MATERIAL
 #define HAS_MATERIAL 0

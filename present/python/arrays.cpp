@@ -10,6 +10,7 @@
 #include "host/base/text.h"
 #include "host/scene/gltf/mesh/normals.h"
 #include "host/scene/lights/light_kinds.h"
+#include "host/scene/lights/light_side.h"
 
 namespace py = pybind11;
 
@@ -56,9 +57,11 @@ std::vector<Vector> vectors_of(const Array<float>& array, py::ssize_t rows,
 }
 
 LightType type_of(const std::string& kind) {
-    if (const LightKind* found = find_light_kind(kind)) return found->type;
     std::vector<std::string> names;
-    for (const LightKind& row : kLightKinds) names.emplace_back(row.name);
+    for (const LightKind& row : kLightKinds) {
+        if (row.name == kind) return row.type;
+        names.emplace_back(row.name);
+    }
     throw Error("lights: kind '" + kind + "' is none of " + joined(names));
 }
 
@@ -117,6 +120,7 @@ std::vector<SceneLight> lights_of(const std::string& kind,
         if (!std::isfinite(light.direction.x)) {
             throw Error(fmt::format("lights: direction of light {} is zero or not finite", i));
         }
+        light.side = perpendicular_side(light.direction);
         if (const std::string problem = cone_problem(light); !problem.empty()) {
             throw Error(fmt::format("lights: light {}: {}", i, problem));
         }

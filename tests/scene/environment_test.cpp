@@ -78,7 +78,9 @@ TEST(Environment, PixelsCoverTheSphere) {
     EXPECT_GT(e.direction(24, 8).x, 0.98) << "right of it is +X";
 }
 
-TEST(Environment, LightsHaveItsPower) {
+TEST(Environment, LightsHaveItsPowerAndAxes) {
+    // 2^-53 of the part of a side that is perpendicular, which may be 1e-6 long.
+    constexpr double kRoundedSide = 1e-9;
     const Environment e = sky();
     glm::dvec3 wanted(0.0);
     for (int y = 0; y < e.height; ++y) {
@@ -88,7 +90,10 @@ TEST(Environment, LightsHaveItsPower) {
         const auto lights = environment_lights(e, count);
         EXPECT_EQ(lights.size(), count);
         glm::dvec3 sum(0.0);
-        for (const SceneLight& light : lights) sum += glm::dvec3(light.intensity);
+        for (const SceneLight& light : lights) {
+            sum += glm::dvec3(light.intensity);
+            EXPECT_NEAR(glm::dot(light.direction, light.side), 0.0, kRoundedSide);
+        }
         // Each light is rounded to a float once.
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c] / wanted[c], 1.0, 1e-7) << count;
     }

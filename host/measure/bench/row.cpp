@@ -199,17 +199,20 @@ std::vector<std::string> varying_fields(const std::vector<BenchRow>& rows) {
     return varying_fields(points);
 }
 
+std::vector<BenchRow> complete_points(std::vector<BenchRow> rows) {
+    while (!rows.empty() && rows.back().stage != kFrameStage.name) rows.pop_back();
+    return rows;
+}
+
 BenchLog::BenchLog(std::filesystem::path file, bool resume) : file_(std::move(file)) {
     if (!resume || !std::filesystem::exists(file_)) return;
     std::string text = read_text(file_);
-    // A copied file may end within a line or a point.
-    text.erase(text.rfind('\n') + 1);
+    text.erase(text.rfind('\n') + 1);  // a copied file may end within a line
     try {
-        rows_ = bench_rows(parse_csv(text));
+        rows_ = complete_points(bench_rows(parse_csv(text)));
     } catch (const Error& error) {
         throw Error(fmt::format("{}: {}", file_.string(), error.what()));
     }
-    while (!rows_.empty() && rows_.back().stage != kFrameStage.name) rows_.pop_back();
 }
 
 std::vector<BenchRow> BenchLog::rows_of(const SweepPoint& point) const {

@@ -57,6 +57,9 @@ bool is_bench_table(const TextTable& csv);
 /// anything else.
 std::vector<BenchRow> bench_rows(const TextTable& csv);
 
+/// The rows without those of a last point whose frame is missing: a copied file may end there.
+std::vector<BenchRow> complete_points(std::vector<BenchRow> rows);
+
 /// Names of the fields in which the rows' points differ, and the fields that they share:
 /// ", resolution 1920x1080, lights 5000".
 std::vector<std::string> varying_fields(const std::vector<BenchRow>& rows);

@@ -7,6 +7,7 @@
 
 #include "host/scene/export/materials.h"
 #include "host/scene/lights/light_kinds.h"
+#include "host/scene/lights/light_side.h"
 
 namespace kilolux {
 namespace {
@@ -122,14 +123,10 @@ Json light_json(const SceneLight& light) {
     return out;
 }
 
-// Lights travel along their node's -Z, and X is their side; another one where that is along Z.
+// Lights travel along their node's -Z, and X is their side.
 glm::dmat3 axes_of(const SceneLight& light) {
-    constexpr double kLeastSine = 1e-6;
     const glm::dvec3 z = -glm::normalize(light.direction);
-    const glm::dvec3 across = light.side - z * glm::dot(light.side, z);
-    const glm::dvec3 aside = std::abs(z.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-    const glm::dvec3 x =
-        glm::normalize(glm::length(across) > kLeastSine ? across : glm::cross(aside, z));
+    const glm::dvec3 x = perpendicular_side(-z, light.side);
     return {x, glm::cross(z, x), z};
 }
 

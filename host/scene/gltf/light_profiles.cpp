@@ -59,7 +59,8 @@ SceneLight light_of(const tinygltf::Value& use, const PhotometricWeb& web,
                     const glm::dmat4& world_from_node) {
     SceneLight out;
     out.position = glm::dvec3(world_from_node[3]);
-    aim_light(out, world_from_node);
+    // Without a side the light is rejected and counted like any light without a direction.
+    if (!aim_light(out, world_from_node)) out.direction = glm::dvec3(0.0);
     const double peak = member_or(use, "multiplier", 1.0) * web.peak;
     const std::vector<double> color = numbers_member(use, "color");
     for (glm::length_t c = 0; c < 3; ++c) {
@@ -94,8 +95,6 @@ void add_profile_lights(const GltfDocument& document, const PlacedNodes& nodes, 
         light.profile = static_cast<int>(scene.aimed_profiles.size());
         const bool mirrored = glm::determinant(glm::dmat3(nodes.world_from_node[n])) < 0.0;
         scene.aimed_profiles.push_back({web, mirrored});
-        // Without a side the light is rejected and counted like any light without a direction.
-        if (!std::isfinite(glm::length(light.side))) light.direction = glm::dvec3(0.0);
         scene.lights.push_back(light);
     }
 }

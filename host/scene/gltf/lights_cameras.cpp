@@ -6,16 +6,17 @@
 
 #include "host/scene/gltf/extensions.h"
 #include "host/scene/lights/light_kinds.h"
+#include "host/scene/lights/light_side.h"
 
 namespace kilolux {
 namespace {
 
-SceneLight convert_light(const nlohmann::json& source, const glm::dmat4& world_from_node) {
+SceneLight convert_light(const nlohmann::json& source, std::string_view extension,
+                         const glm::dmat4& world_from_node) {
     SceneLight out;
-    const LightKind& kind = *find_light_kind(source.at("type").get<std::string>());
+    const LightKind& kind = *find_light_kind(extension, source.at("type").get<std::string>());
     out.type = kind.type;
     if (kind.is_aimed) aim_light(out, world_from_node);
-    if (!is_finite(out.side)) out.side = SceneLight().side;  // its node is flat along X
     out.position = glm::dvec3(world_from_node[3]);
     const auto color = source.value("color", std::array<double, 3>{1.0, 1.0, 1.0});
     for (glm::length_t c = 0; c < 3; ++c) {
@@ -86,22 +87,26 @@ SceneCamera convert_camera(const GltfDocument& document, std::size_t index,
 
 }  // namespace
 
-void aim_light(SceneLight& light, const glm::dmat4& world_from_node) {
-    const glm::dvec3 x(world_from_node[0]);
+bool aim_light(SceneLight& light, const glm::dmat4& world_from_node) {
+    const glm::dvec3 x = glm::normalize(glm::dvec3(world_from_node[0]));
     const glm::dvec3 z = glm::normalize(glm::dvec3(world_from_node[2]));
+    light.direction = glm::dvec3(0.0);
+    if (!is_finite(z)) return false;
     light.direction = -z;
-    light.side = glm::normalize(x - z * glm::dot(x, z));
+    light.side = perpendicular_side(light.direction, x);
+    return glm::length(glm::cross(x, z)) > 0.0;
 }
 
 std::vector<SceneLight> convert_lights(const GltfDocument& document, const PlacedNodes& nodes) {
     std::vector<SceneLight> lights;
     for (const std::size_t n : nodes.in_scene) {
         for (std::size_t e = 0; e < kLightExtensions.size(); ++e) {
-            const auto* use = find_extension(document.model.nodes[n].extensions,
-                                             std::string(kLightExtensions[e]));
+            const std::string extension(kLightExtensions[e]);
+            const auto* use = find_extension(document.model.nodes[n].extensions, extension);
             if (use == nullptr || !use->Has("light")) continue;
             const auto light = static_cast<std::size_t>(member_or(*use, "light", 0));
-            lights.push_back(convert_light(document.lights[e][light], nodes.world_from_node[n]));
+            lights.push_back(
+                convert_light(document.lights[e][light], extension, nodes.world_from_node[n]));
         }
     }
     return lights;
@@ -110,9 +115,10 @@ std::vector<SceneLight> convert_lights(const GltfDocument& document, const Place
 void report_cones(const GltfDocument& document) {
     std::string first;
     std::size_t more = 0;
-    for (const std::vector<nlohmann::json>& lights : document.lights) {
-        for (std::size_t i = 0; i < lights.size(); ++i) {
-            const std::string problem = cone_problem(convert_light(lights[i], glm::dmat4(1)));
+    for (std::size_t e = 0; e < kLightExtensions.size(); ++e) {
+        for (std::size_t i = 0; i < document.lights[e].size(); ++i) {
+            const std::string problem = cone_problem(
+                convert_light(document.lights[e][i], kLightExtensions[e], glm::dmat4(1)));
             if (problem.empty()) continue;
             if (first.empty()) {
                 first = element_name("lights", i) + ": " + problem;

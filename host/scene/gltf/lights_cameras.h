@@ -5,8 +5,9 @@
 
 namespace kilolux {
 
-/// Lights travel along their node's -Z, and X is their side; its scale does not matter.
-void aim_light(SceneLight& light, const glm::dmat4& world_from_node);
+/// Lights travel along their node's -Z, and X is their side; its scale does not matter. False where
+/// the node's X and Z span no plane: the side is any, and without Z the direction is 0.
+bool aim_light(SceneLight& light, const glm::dmat4& world_from_node);
 
 /// The lights of kLightExtensions at their nodes. Unusable values are kept: the renderer rejects
 /// and counts those lights.

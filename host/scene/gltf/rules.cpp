@@ -216,6 +216,7 @@ Rules light_rules(std::string_view extension) {
         number(light + "intensity"),
     };
     for (const LightNumber& of_light : kLightNumbers) {
+        if (!has_number(extension, of_light)) continue;
         rules.push_back(number(light + std::string(of_light.path)));
     }
     return rules;

@@ -15,6 +15,7 @@
 #include "host/base/formats/srgb.h"
 #include "host/base/system/memory.h"
 #include "host/images/images.h"
+#include "host/scene/lights/light_side.h"
 #include "host/scene/lights/radiance_header.h"
 
 namespace kilolux {
@@ -99,6 +100,7 @@ SceneLight light_of(const Environment& e, const Region& r) {
     SceneLight out;
     out.type = LightType::directional;
     out.direction = has_direction ? -glm::normalize(centroid) : glm::dvec3(0, -1, 0);
+    out.side = perpendicular_side(out.direction);
     out.intensity = glm::vec3(sum);
     return out;
 }

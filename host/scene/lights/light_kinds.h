@@ -72,10 +72,19 @@ inline void add_features(SceneFeatures& features, const SceneLight& light) {
     features.*kind_of(light).feature = true;
 }
 
-/// Null for an unknown name.
-constexpr const LightKind* find_light_kind(std::string_view name) {
-    const auto found = std::ranges::find(kLightKinds, name, &LightKind::name);
+/// Null for a name that the extension does not have.
+constexpr const LightKind* find_light_kind(std::string_view extension, std::string_view name) {
+    const auto found = std::ranges::find_if(kLightKinds, [&](const LightKind& kind) {
+        return kind.extension == extension && kind.name == name;
+    });
     return found == kLightKinds.end() ? nullptr : &*found;
+}
+
+/// Whether some kind of the extension has the number.
+constexpr bool has_number(std::string_view extension, const LightNumber& number) {
+    return std::ranges::any_of(kLightKinds, [&](const LightKind& kind) {
+        return kind.extension == extension && kind.*number.has;
+    });
 }
 
 inline bool is_finite(const glm::dvec3& v) {

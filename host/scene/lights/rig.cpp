@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host/base/formats/srgb.h"
+#include "host/scene/lights/light_side.h"
 
 namespace kilolux {
 namespace {
@@ -15,6 +16,7 @@ SceneLight directional(const glm::dvec3& towards_light, const glm::dvec3& illumi
     SceneLight light;
     light.type = LightType::directional;
     light.direction = -glm::normalize(towards_light);
+    light.side = perpendicular_side(light.direction);
     light.intensity = glm::vec3(illuminance);
     return light;
 }

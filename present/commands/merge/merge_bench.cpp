@@ -42,7 +42,8 @@ Json best_limits(const Json& parts) {
 void merge_bench(const MergeOptions& options, std::vector<Result> results) {
     std::vector<std::vector<BenchRow>> found;
     for (Result& result : results) {
-        found.push_back(BenchLog(result.csv, true).rows());
+        found.push_back(
+            complete_points(in_file(result.csv, [&] { return bench_rows(result.table); })));
         std::ranges::transform(found.back(), std::back_inserter(result.points),
                                [](const BenchRow& row) { return point_text(row.point); });
     }

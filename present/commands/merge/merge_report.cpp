@@ -2,6 +2,7 @@
 #include "present/commands/merge/merge_report.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "host/base/error.h"
 #include "host/base/log.h"
@@ -52,33 +53,36 @@ TextTable merged_table(const std::vector<Result>& results, const std::vector<Res
 }
 
 // Throws Error that names the file unless it is the table of a report.
-void require_report(const Result& result) {
-    try {
+std::vector<ReportRow> rows_of(const Result& result) {
+    return in_file(result.csv, [&] {
         for (const ReportColumn& column : report_columns({})) {
             if (column.is_shown == nullptr) place_of(result.table.columns, column.name);
         }
-        report_rows(result.table);
-    } catch (const Error& error) {
-        throw Error(result.csv.string() + ": " + error.what());
-    }
+        return report_rows(result.table);
+    });
 }
 
 // Every shard has the default, with whose frames its own are paired: times relative to it compare,
-// and the first shard's stands for all.
-void keep_own_rows(std::vector<Result>& results) {
+// and the first shard's stands for all. Returns the rows of each result.
+std::vector<std::vector<ReportRow>> keep_own_rows(std::vector<Result>& results) {
+    std::vector<std::vector<ReportRow>> parts;
     for (Result& result : results) {
+        std::vector<ReportRow> rows = rows_of(result);
         TextTable& table = result.table;
         const bool is_first = result.document.value("shard", "0/1").starts_with("0/");
-        if (!is_first && !table.rows.empty()) table.rows.erase(table.rows.begin());
+        if (!is_first && !rows.empty()) {
+            rows.erase(rows.begin());
+            table.rows.erase(table.rows.begin());
+        }
+        parts.push_back(std::move(rows));
         for (std::size_t row = 0; row < table.rows.size(); ++row)
             result.points.push_back(field_of(table, row, "setting"));
     }
+    return parts;
 }
 
-std::vector<ReportRow> joined_rows(const std::vector<Result>& results,
+std::vector<ReportRow> joined_rows(const std::vector<std::vector<ReportRow>>& parts,
                                    const std::vector<ResultRow>& order, const Json& context) {
-    std::vector<std::vector<ReportRow>> parts;
-    for (const Result& result : results) parts.push_back(report_rows(result.table));
     std::vector<ReportRow> rows;
     for (const auto& [result, place] : order) {
         ReportRow& row = rows.emplace_back(parts[result][place]);
@@ -126,12 +130,11 @@ void copy_error_maps(const fs::path& folder, const std::vector<Result>& results,
 }  // namespace
 
 void merge_report(const MergeOptions& options, std::vector<Result> results) {
-    std::ranges::for_each(results, require_report);
-    keep_own_rows(results);
+    const std::vector<std::vector<ReportRow>> parts = keep_own_rows(results);
     const std::vector<ResultRow> order = rows_in_order(results);
     Json document = merged_document(results);
     const Json context = document.at("context");
-    const std::vector<ReportRow> rows = joined_rows(results, order, context);
+    const std::vector<ReportRow> rows = joined_rows(parts, order, context);
     const std::vector<ReportColumn> columns = report_columns(stage_names(rows));
     const Table table = joined_table(merged_table(results, order, columns), columns, rows);
     document["rows"] = table_json(table);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "host/base/error.h"
 #include "host/measure/bench/table.h"
 
 namespace kilolux {
@@ -27,6 +28,16 @@ struct Result {
     TextTable table;
     std::vector<std::string> points{};  // of each row
 };
+
+/// Runs `body`; its errors name the file.
+template <typename Body>
+auto in_file(const std::filesystem::path& file, const Body& body) {
+    try {
+        return body();
+    } catch (const Error& error) {
+        throw Error(file.string() + ": " + error.what());
+    }
+}
 
 /// A row of a result.
 struct ResultRow {

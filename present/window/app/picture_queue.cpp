@@ -95,8 +95,8 @@ bool PictureQueue::take_one(Pending& pending, const Receiver& receiver) {
         buffers_.show(pending.slot, pending.request.settings.width,
                       pending.request.settings.height);
         displayed_ = pending.request;
-        ++shown_;
-        receiver.shown(pending.request, std::move(picture));
+        ++shown_count_;
+        receiver.finished(pending.request, std::move(picture));
         return true;
     } catch (const std::future_error&) {
         // A later request replaced it.

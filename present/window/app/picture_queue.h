@@ -30,10 +30,10 @@ class PictureQueue {
     /// Asks for `next`, unless it is under way or shown. Cancels slow pictures of anything else.
     void request(RenderWorker& worker, PictureRequest next, const Policy& policy);
 
-    /// Shows finished pictures and passes them to `shown`. `given_up` receives cancelled ones that
-    /// were begun, with the time that they would have taken [s].
+    /// Shows finished pictures and passes them to `finished`. `given_up` receives cancelled ones
+    /// that were begun, with the time that they would have taken [s].
     struct Receiver {
-        std::function<void(const PictureRequest&, Picture)> shown;
+        std::function<void(const PictureRequest&, Picture)> finished;
         std::function<void(const PictureRequest&, double)> given_up;
         OnFailure failed;
     };
@@ -51,7 +51,7 @@ class PictureQueue {
     /// Whether a request for `next` is shown with all its samples.
     bool has_finished(const PictureRequest& next) const;
     const std::optional<PictureRequest>& displayed() const { return displayed_; }  // on the screen
-    std::uint64_t shown() const { return shown_; }                                 // pictures
+    std::uint64_t shown_count() const { return shown_count_; }                     // pictures
     const PictureBuffers& buffers() const { return buffers_; }
 
     /// The progress of the picture that is being made; null: none is.
@@ -70,7 +70,7 @@ class PictureQueue {
     std::deque<Pending> pending_;
     std::optional<PictureRequest> requested_;  // the last
     std::optional<PictureRequest> displayed_;
-    std::uint64_t shown_ = 0;
+    std::uint64_t shown_count_ = 0;
     std::chrono::steady_clock::time_point last_change_;
 };
 

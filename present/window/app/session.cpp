@@ -70,7 +70,8 @@ void ViewSession::run() {
         request_picture();
         if (draws) frames_.paint(state_.vsync);
         frames_.end();
-        if (options_.exit_after > 0 && pictures_.queue().shown() >= options_.exit_after) break;
+        if (options_.exit_after > 0 && pictures_.queue().shown_count() >= options_.exit_after)
+            break;
         if (script_ && script_->is_done()) break;
     }
     if (!options_.screenshot.empty()) frames_.save(options_.screenshot);
@@ -130,7 +131,7 @@ void ViewSession::take_results() {
 
 void ViewSession::take_picture(const PictureRequest& request, const Picture& picture,
                                double scale) {
-    if (pictures_.queue().shown() == 1) {
+    if (pictures_.queue().shown_count() == 1) {
         limits_ = Awaited(
             worker_->ask([](Renderer& renderer) { return cached_device_limits(renderer.gpu()); }));
     }
@@ -167,7 +168,7 @@ bool ViewSession::is_resting() const {
 
 bool ViewSession::is_busy() const {
     return limits_.is_open() || clusters_.is_open() || error_.is_open() || lights_.are_changing() ||
-           saving_.are_open() || pictures_.are_busy();
+           saving_.is_open() || pictures_.are_busy();
 }
 
 // Whether the last picture is the wanted one, in full size, and no task is left.
@@ -249,10 +250,10 @@ std::string ViewSession::waiting_line() const {
 }
 
 void ViewSession::describe() {
-    frames_.describe();
+    frames_.begin_description();
     Actions actions;
     describe_picture(pictures_.place());
-    const ShownPicture picture = pictures_.shown();
+    const ShownPicture picture = pictures_.shown_picture();
     clusters_.ask(*worker_, state_, picture);
     clusters_.describe(state_, picture);
     if (state_.show_panel) describe_panel(actions);
@@ -296,7 +297,7 @@ void ViewSession::describe_panel(Actions& actions) {
 std::vector<std::string> ViewSession::overlay_lines() const {
     std::vector<std::string> out;
     const RenderSettings& asked = facts_.displayed;
-    if (pictures_.queue().shown() == 0) {
+    if (pictures_.queue().shown_count() == 0) {
         out.emplace_back("compiling kernels and shaders ...");
     } else {
         const double ms = facts_.history.median_frame_ms();

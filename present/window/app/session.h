@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "present/window/app/saved_pictures.h"
+#include "present/window/app/picture_saving.h"
 #include "present/window/app/scene_lights.h"
 #include "present/window/app/state_file.h"
 #include "present/window/app/steering.h"
@@ -15,7 +15,7 @@
 #include "present/window/overlay/error_measurement.h"
 #include "present/window/overlay/messages.h"
 #include "present/window/panel/panel.h"
-#include "present/window/screen/window_frames.h"
+#include "present/window/panel/window_frames.h"
 #include "present/window/script/script.h"
 #include "present/window/script/script_player.h"
 
@@ -86,7 +86,7 @@ class ViewSession {
     ClusterOverlay clusters_;
     ErrorMeasurement error_;
     Awaited<DeviceLimits> limits_;
-    SavedPictures saving_;
+    PictureSaving saving_;
     Actions held_back_;  // until the lights are replaced
     PanelFacts facts_;
     Messages messages_;

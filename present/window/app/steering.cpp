@@ -17,22 +17,29 @@ double held(const InputState& input, int plus, int minus) {
 
 }  // namespace
 
-CameraInput Steering::motion(CameraMode mode) const {
-    const InputState& input = frames_.input();
+CameraInput camera_input(const SteeringInput& from, CameraMode mode) {
+    const InputState& input = from.input;
     CameraInput out;
-    if (!frames_.gui().wants_keys() && !input.is_control_down()) {
+    if (from.has_keys && !input.is_control_down()) {
         out.move = {held(input, GLFW_KEY_D, GLFW_KEY_A), held(input, GLFW_KEY_E, GLFW_KEY_Q),
                     held(input, GLFW_KEY_W, GLFW_KEY_S)};
     }
     out.faster = input.is_shift_down();
     out.slower = input.is_alt_down();
-    if (!frames_.gui().wants_mouse()) out.wheel = input.wheel();
-    if (!dragging_) return out;
-    const double height = std::max(frames_.window().size()[1], 1);
+    if (from.has_wheel) out.wheel = input.wheel();
+    if (!from.drags) return out;
+    const double height = std::max(from.height, 1);
     const glm::dvec2 dragged(input.motion().x / height, input.motion().y / height);
     const bool pans = input.was_button_down(kRight) || input.was_button_down(kMiddle);
     (mode == CameraMode::orbit && pans ? out.pan : out.look) = dragged;
     return out;
+}
+
+CameraInput Steering::motion(CameraMode mode) const {
+    const Gui& gui = frames_.gui();
+    return camera_input({frames_.input(), !gui.wants_keys(), !gui.wants_mouse(), dragging_,
+                         frames_.window().size()[1]},
+                        mode);
 }
 
 void Steering::steer(CameraMode mode) {

@@ -2,9 +2,21 @@
 #pragma once
 
 #include "present/window/app/camera_rig.h"
-#include "present/window/screen/window_frames.h"
+#include "present/window/panel/window_frames.h"
 
 namespace kilolux {
+
+/// A frame's input, and what of it is the camera's.
+struct SteeringInput {
+    const InputState& input;
+    bool has_keys = true;   // no text field takes them
+    bool has_wheel = true;  // the mouse is on no panel
+    bool drags = false;     // the mouse, begun on the picture
+    int height = 1;         // of the window, window coordinates
+};
+
+/// What the input asks of the camera.
+CameraInput camera_input(const SteeringInput& from, CameraMode mode);
 
 /// Moves the camera by keys that are held, drags and the wheel.
 class Steering {

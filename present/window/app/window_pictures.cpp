@@ -6,6 +6,13 @@
 
 namespace kilolux {
 
+BoxTarget area_beside(float panel_width, std::array<int, 2> window,
+                      std::array<int, 2> framebuffer) {
+    const double ratio = window[0] > 0 ? static_cast<double>(framebuffer[0]) / window[0] : 1.0;
+    const int left = static_cast<int>(ratio * static_cast<double>(panel_width));
+    return {left, 0, std::max(framebuffer[0] - left, 0), framebuffer[1]};
+}
+
 WindowPictures::WindowPictures(const ViewState& state, const WindowFrames& frames,
                                const CameraRig& rig, const SceneLights& lights, double time,
                                bool always)
@@ -23,20 +30,16 @@ ScreenPlace WindowPictures::place() const {
 }
 
 BoxTarget WindowPictures::area() const {
-    const auto size = frames_.window().size();
-    const auto pixels = frames_.window().framebuffer();
-    const double ratio = size[0] > 0 ? static_cast<double>(pixels[0]) / size[0] : 1.0;
-    const int left = static_cast<int>(ratio * static_cast<double>(panel_width()));
-    return {left, 0, std::max(pixels[0] - left, 0), pixels[1]};
+    return area_beside(panel_width(), frames_.window().size(), frames_.window().framebuffer());
 }
 
-ShownPicture WindowPictures::shown() const {
+ShownPicture WindowPictures::shown_picture() const {
     const ScreenPlace at = place();
     const glm::dvec2 mouse(frames_.input().mouse().x, frames_.input().mouse().y);
     const bool inside = mouse.x >= at.x0 && mouse.x < at.x1 && mouse.y >= at.y0 && mouse.y < at.y1;
     const bool is_on_picture = inside && !frames_.gui().wants_mouse();
     return {queue_.displayed(),
-            queue_.shown(),
+            queue_.shown_count(),
             at,
             area(),
             is_on_picture ? std::optional(mouse) : std::nullopt,
@@ -78,16 +81,17 @@ void WindowPictures::request(RenderWorker& worker) {
     queue_.request(worker, std::move(next), {refines(), always()});
 }
 
-void WindowPictures::take(const std::function<void(const PictureRequest&, Picture, double)>& shown,
-                          const OnFailure& failed) {
-    const auto scale_of = [this](const PictureRequest& request, int empty) {
+void WindowPictures::take(
+    const std::function<void(const PictureRequest&, Picture, double)>& finished,
+    const OnFailure& failed) {
+    const auto scale_of = [this](const PictureRequest& request, int without_area) {
         const int width = area().width;
-        return width > 0 ? static_cast<double>(request.settings.width) / width : empty;
+        return width > 0 ? static_cast<double>(request.settings.width) / width : without_area;
     };
     queue_.take({[&](const PictureRequest& request, Picture picture) {
                      const double scale = scale_of(request, 1);
                      scale_.picture_took(picture.frame.stats.frame_ms, scale);
-                     shown(request, std::move(picture), scale);
+                     finished(request, std::move(picture), scale);
                  },
                  [&](const PictureRequest& request, double seconds) {
                      scale_.picture_would_take(1e3 * seconds,

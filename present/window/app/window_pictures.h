@@ -6,28 +6,35 @@
 #include "present/window/app/scene_lights.h"
 #include "present/window/app/steering.h"
 #include "present/window/overlay/cluster_overlay.h"
-#include "present/window/screen/window_frames.h"
+#include "present/window/panel/window_frames.h"
 
 namespace kilolux {
 
-/// The pictures of the scene that the window wants and shows, and their place beside the panel.
+/// The framebuffer's part [pixel] beside a panel. Sizes are the window's and the framebuffer's; the
+/// panel's width is in window coordinates.
+BoxTarget area_beside(float panel_width, std::array<int, 2> window, std::array<int, 2> framebuffer);
+
+/// Requests pictures for the window and shows them, beside the panel.
 class WindowPictures {
  public:
-    /// Of the camera and lights at `time` [s]. `always`: also those that are shown already.
+    /// `time`: of the first picture [s]. `always`: requests a picture again when it is shown
+    /// already.
     WindowPictures(const ViewState& state, const WindowFrames& frames, const CameraRig& rig,
                    const SceneLights& lights, double time, bool always);
 
     float panel_width() const { return state_.show_panel ? frames_.gui().scaled(360.0f) : 0.0f; }
     ScreenPlace place() const;  // window coordinates
-    ShownPicture shown() const;
+    ShownPicture shown_picture() const;
 
-    /// The picture that the state describes, and its whole size at every time.
+    /// A request for the picture that the state describes, with fewer pixels and samples while
+    /// something moves.
     PictureRequest wanted() const;
+    /// The same in full.
     PictureRequest wanted_whole() const { return wanted(1.0); }
 
     void request(RenderWorker& worker);
-    /// Passes finished pictures to `shown`, with the scale of their edges.
-    void take(const std::function<void(const PictureRequest&, Picture, double)>& shown,
+    /// Shows finished pictures and passes them to `finished`, with the scale of their edges.
+    void take(const std::function<void(const PictureRequest&, Picture, double)>& finished,
               const OnFailure& failed);
 
     /// Whether a picture is under way; where pictures never end, they do not count.
@@ -41,7 +48,7 @@ class WindowPictures {
     static constexpr int kSmallestEdge = 16;  // [pixel] of a picture
 
     PictureRequest wanted(double scale) const;  // of the picture's edges
-    BoxTarget area() const;                     // framebuffer, from its lower left
+    BoxTarget area() const;
     bool always() const { return state_.continuous || always_; }
     bool refines() const;
 

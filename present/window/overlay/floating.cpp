@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "present/window/panel/gui.h"
+#include "present/window/panel/key_bindings.h"
 
 namespace kilolux {
 namespace {
@@ -17,32 +18,6 @@ constexpr float kNoticeWidth = 260.0f;
 constexpr ImGuiWindowFlags kFloating = kPinned | ImGuiWindowFlags_NoInputs |
                                        ImGuiWindowFlags_NoFocusOnAppearing |
                                        ImGuiWindowFlags_NoScrollbar;
-
-struct KeyHelp {
-    const char* keys;
-    const char* meaning;
-};
-
-constexpr KeyHelp kKeys[] = {
-    {"W A S D  Q E", "fly, or orbit: forward, left, back, right, down, up"},
-    {"drag the mouse", "look around; orbit: turn, right or middle button: pan"},
-    {"Shift, Alt", "faster, slower"},
-    {"mouse wheel", "fly: speed; orbit: distance"},
-    {"O", "fly or orbit"},
-    {"F, R", "frame the scene; back to the first camera"},
-    {"1 2 3 4", "deferred, forward-plus, forward, deferred-all"},
-    {"V, Shift+V, L", "next view, previous view, the lit picture"},
-    {"Space", "lights move or rest"},
-    {"X", "lists of the pixel under the mouse"},
-    {"G", "freeze the clusters and fly around them"},
-    {"P, Shift+P", "save the picture as PNG, as EXR"},
-    {"C, Ctrl+C", "copy the command that renders this; the camera's options"},
-    {"Tab", "panel"},
-    {"F11", "full screen"},
-    {"H or F1", "this help"},
-    {"Ctrl+Q", "leave"},
-    {"Ctrl+click", "on a slider: type a number"},
-};
 
 float width_of(const char* text) { return ImGui::CalcTextSize(text).x; }
 
@@ -93,12 +68,12 @@ void describe_help(const ScreenPlace& place, float scale) {
     const ImGuiStyle& style = ImGui::GetStyle();
     const float gap = 16.0f * scale;
     float keys = 0.0f, meanings = 0.0f;
-    for (const KeyHelp& entry : kKeys) {
+    for (const KeyRow& entry : key_rows()) {
         keys = std::max(keys, width_of(entry.keys));
         meanings = std::max(meanings, width_of(entry.meaning));
     }
     const float line = ImGui::GetTextLineHeightWithSpacing();
-    const ImVec2 whole(keys + gap + meanings, line * static_cast<float>(std::size(kKeys)));
+    const ImVec2 whole(keys + gap + meanings, line * static_cast<float>(key_rows().size()));
     const ImVec2 edge(2.0f * style.WindowPadding.x, 2.0f * style.WindowPadding.y);
     const float left = place.x1 - place.x0 < whole.x + edge.x ? 0.0f : place.x0;
     const float shrunk = std::min(
@@ -111,7 +86,7 @@ void describe_help(const ScreenPlace& place, float scale) {
     ImGui::SetWindowFontScale(shrunk);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing,
                         {style.ItemSpacing.x, shrunk * style.ItemSpacing.y});
-    for (const KeyHelp& entry : kKeys) {
+    for (const KeyRow& entry : key_rows()) {
         ImGui::TextColored({0.95f, 0.72f, 0.34f, 1.0f}, "%s", entry.keys);
         ImGui::SameLine(style.WindowPadding.x + shrunk * (keys + gap));
         ImGui::TextUnformatted(entry.meaning);

@@ -54,6 +54,8 @@ struct Actions {
     bool dismiss_failure = false;
     bool measure_error = false;
     bool close = false;
+
+    bool operator==(const Actions&) const = default;
 };
 
 /// What a section of the panel shows and changes.

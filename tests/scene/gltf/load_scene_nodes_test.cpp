@@ -41,10 +41,13 @@ TEST(LoadSceneLights, HaveTheDefaultsOfTheExtension) {
 }
 
 // A NaN would differ from itself, and the scene's lights would be new in every frame.
-TEST(LoadSceneLights, HaveASideOnAFlatNode) {
+TEST(LoadSceneLights, OfAFlatNodeHaveAxes) {
     const SceneLight spot = light_of({{"type", "spot"}}, {0, 1, 1});
-    EXPECT_EQ(spot, spot);
-    EXPECT_EQ(spot.side, SceneLight().side);
+    expect_near(spot.direction, {1, 0, 0});
+    expect_near(spot.side, {0, 0, 1});
+    const SceneLight unaimed = light_of({{"type", "spot"}}, {1, 1, 0});
+    EXPECT_EQ(unaimed.direction, glm::dvec3(0.0)) << "which the renderer rejects";
+    EXPECT_EQ(unaimed, unaimed);
 }
 
 TEST(LoadSceneLights, ReadAllProperties) {

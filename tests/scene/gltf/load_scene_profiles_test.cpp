@@ -72,9 +72,12 @@ TEST(LoadSceneProfiles, TurnWithTheirNode) {
 }
 
 TEST(LoadSceneProfiles, ANodeWithoutAxesGivesALightThatIsRejected) {
-    const Scene scene =
-        load_beside(file_with(kFile, {{"scale", {0, 0, 0}}}, {{"light", 0}}), ies_text({}));
-    EXPECT_EQ(scene.lights[0].direction, glm::dvec3(0.0));
+    for (const json& scale : {json{0, 0, 0}, json{0, 1, 1}, json{1, 1, 0}}) {
+        const Scene scene =
+            load_beside(file_with(kFile, {{"scale", scale}}, {{"light", 0}}), ies_text({}));
+        EXPECT_EQ(scene.lights[0].direction, glm::dvec3(0.0)) << scale;
+        EXPECT_EQ(scene.lights, scene.lights) << scale;  // nothing is NaN
+    }
 }
 
 TEST(LoadSceneProfiles, WhatIsWrongIsNamed) {

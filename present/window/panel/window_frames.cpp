@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/window/screen/window_frames.h"
+#include "present/window/panel/window_frames.h"
 
 #include <epoxy/gl.h>
 
@@ -39,7 +39,7 @@ void WindowFrames::wake() {
     wake_windows();
 }
 
-void WindowFrames::describe() {
+void WindowFrames::begin_description() {
     gui_.begin(input_, fixed_seconds_);
     ui_.begin_frame();
 }

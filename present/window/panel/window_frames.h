@@ -6,10 +6,10 @@
 #include <functional>
 #include <optional>
 
-#include "present/window/app/frame_clock.h"
 #include "present/window/panel/gui.h"
 #include "present/window/panel/widgets.h"
 #include "present/window/screen/event_queue.h"
+#include "present/window/screen/frame_clock.h"
 #include "present/window/screen/window.h"
 
 namespace kilolux {
@@ -17,8 +17,8 @@ namespace kilolux {
 /// The frames of a window: their time, their input, and how they are drawn.
 class WindowFrames {
  public:
-    /// `window` is current. `fixed_seconds`: of every frame of a script; none: as long as they
-    /// take, and input that has waited for long is dropped.
+    /// `window`'s context is current. `fixed_seconds`: the length of every frame, for scripts;
+    /// none: frames are measured, and input that has waited too long is dropped.
     WindowFrames(Window& window, std::optional<double> fixed_seconds);
     ~WindowFrames();
 
@@ -34,8 +34,8 @@ class WindowFrames {
     bool is_drawn_soon() const { return frames_to_draw_ > 0; }
     bool has_events() const { return !events_.empty(); }
 
-    /// Begins the description of what paint() draws.
-    void describe();
+    /// Begins Dear ImGui's frame, to which widgets are added and which paint() draws.
+    void begin_description();
     void paint(bool vsync);
     /// Writes what was described. Throws UsageError for a format of linear pictures.
     void save(const std::filesystem::path& file);

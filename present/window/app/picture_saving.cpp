@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/window/app/saved_pictures.h"
+#include "present/window/app/picture_saving.h"
 
 #include <fmt/format.h>
 #include <filesystem>
@@ -21,7 +21,7 @@ fs::path free_file(const std::string& extension) {
 
 }  // namespace
 
-void SavedPictures::begin(RenderWorker& worker, const PictureRequest& request,
+void PictureSaving::begin(RenderWorker& worker, const PictureRequest& request,
                           SharedOptions options, const std::string& extension) {
     options.settings = request.settings;
     const auto save = [request, options, extension](Renderer& renderer) {
@@ -36,7 +36,7 @@ void SavedPictures::begin(RenderWorker& worker, const PictureRequest& request,
     saving_.emplace_back(worker.ask(save, AtStop::finish));
 }
 
-void SavedPictures::take(const std::function<void(const std::string&)>& written,
+void PictureSaving::take(const std::function<void(const std::string&)>& written,
                          const OnFailure& failed) {
     for (auto& saving : saving_) saving.take(written, failed);
     std::erase_if(saving_, [](const auto& saving) { return !saving.is_open(); });

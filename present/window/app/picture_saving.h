@@ -10,18 +10,18 @@
 
 namespace kilolux {
 
-/// Pictures that the worker renders in full and writes to the current folder.
-class SavedPictures {
+/// Has the worker render pictures in full and write them to the current folder.
+class PictureSaving {
  public:
-    /// Saves the request's picture as the first of kilolux-001, kilolux-002, ... that does not
-    /// exist. `options`: all that its notes tell but the settings.
+    /// Saves the request's picture as kilolux-001, or the next number that no file has, with this
+    /// extension. `options`: for the notes in the file; their settings are the request's.
     void begin(RenderWorker& worker, const PictureRequest& request, SharedOptions options,
                const std::string& extension);
 
-    /// Passes the line of each picture that is written to `written`.
+    /// Calls `written` with a message for each picture that was written since the last call.
     void take(const std::function<void(const std::string&)>& written, const OnFailure& failed);
 
-    bool are_open() const { return !saving_.empty(); }
+    bool is_open() const { return !saving_.empty(); }
 
  private:
     std::deque<Awaited<std::string>> saving_;
