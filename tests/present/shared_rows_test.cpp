@@ -13,7 +13,7 @@ namespace {
 TEST(SharedRows, CoverThePictureOnce) {
     for (const int height : {1, 16, 131, 2160}) {
         for (const int least : {16, 48}) {
-            SharedRows rows(height, least, 3);
+            SharedRows rows(height, least, 3, 16);
             int next = 0;
             for (std::size_t device = 0; const auto band = rows.take(device); device = 1 - device) {
                 EXPECT_EQ(band->first_row, next);
@@ -30,7 +30,7 @@ TEST(SharedRows, CoverThePictureOnce) {
 // Devices take turns by a clock: the device that is done first takes the next rows.
 TEST(SharedRows, FastDevicesMakeMoreAndAllEndTogether) {
     constexpr double kMs[] = {0.01, 0.1};  // a row
-    SharedRows rows(4000, 16, 2);
+    SharedRows rows(4000, 16, 2, 16);
     double clock[2] = {0.0, 0.0};
     int made[2] = {0, 0}, bands[2] = {0, 0};
     while (true) {
@@ -48,8 +48,14 @@ TEST(SharedRows, FastDevicesMakeMoreAndAllEndTogether) {
     EXPECT_LE(bands[0] + bands[1], 16);
 }
 
+TEST(SharedRows, OnePartIsAnEqualShare) {
+    SharedRows rows(2160, 16, 2, 1);
+    EXPECT_EQ(rows.take(0)->rows, 1088);
+    EXPECT_EQ(rows.take(1)->rows, 1072);
+}
+
 TEST(SharedRows, ThoseGivenBackAreMadeByOthers) {
-    SharedRows rows(32, 32, 2);
+    SharedRows rows(32, 32, 2, 16);
     const auto lost = rows.take(0);
     std::optional<Band> found;
     std::jthread other([&] {
@@ -64,7 +70,7 @@ TEST(SharedRows, ThoseGivenBackAreMadeByOthers) {
 }
 
 TEST(SharedRows, AreNotTakenAfterAStop) {
-    SharedRows rows(32, 16, 2);
+    SharedRows rows(32, 16, 2, 16);
     ASSERT_TRUE(rows.take(0) && rows.take(0));
     std::jthread other([&] { EXPECT_FALSE(rows.take(1)); });  // waits
     rows.stop();

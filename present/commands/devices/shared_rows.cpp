@@ -6,8 +6,8 @@
 
 namespace kilolux {
 
-SharedRows::SharedRows(int height, int least, std::size_t devices)
-    : height_(height), step_(least), speeds_(devices) {}
+SharedRows::SharedRows(int height, int least, std::size_t devices, int parts)
+    : height_(height), step_(least), parts_(parts), speeds_(devices) {}
 
 std::optional<Band> SharedRows::take(std::size_t device) {
     std::unique_lock lock(mutex_);
@@ -27,9 +27,8 @@ std::optional<Band> SharedRows::take(std::size_t device) {
 
 // A device that is not measured counts as the mean of those that are.
 int SharedRows::rows_for(std::size_t device) const {
-    constexpr double kFewest = 16.0;  // parts of the picture for each device
     const auto devices = static_cast<double>(speeds_.size());
-    double rows = height_ / (kFewest * devices);
+    double rows = height_ / (parts_ * devices);
     double sum = 0.0, measured = 0.0;
     for (const double speed : speeds_) {
         sum += speed;

@@ -12,12 +12,13 @@
 namespace kilolux {
 
 /// The rows of a picture, which several devices make at once. A free device takes the next rows:
-/// first a few, later half of its share of the remaining rows. Shares follow the measured speeds,
-/// so that all devices end together. Any thread may call all functions.
+/// first one of `parts` equal parts of what an equally fast device would make, later half of its
+/// share of the remaining rows. Shares follow the measured speeds, so that all devices end
+/// together. Any thread may call all functions.
 class SharedRows {
  public:
     /// `least`: rows are taken in multiples of it, see MemoryPlan::least_rows.
-    SharedRows(int height, int least, std::size_t devices);
+    SharedRows(int height, int least, std::size_t devices, int parts);
 
     /// The next rows for a device; waits while there are none, but another device may give some
     /// back. None: all are made, or stop() was called.
@@ -35,7 +36,7 @@ class SharedRows {
  private:
     int rows_for(std::size_t device) const;
 
-    const int height_, step_;
+    const int height_, step_, parts_;
     std::mutex mutex_;
     std::condition_variable changed_;
     int next_ = 0;  // first row that was not taken
