@@ -182,9 +182,11 @@ Gpu::Gpu(const cl::Device& chosen, int lane_width)
     if (lane_width > 0) info.lane_width = lane_width;
 }
 
-std::future<Gpu> open_meanwhile(std::string choice) {
+std::future<Gpu> open_gpu_async(std::string choice) {
     prepare_pocl();
-    return std::async(std::launch::async,
+    // Drivers and the caller would each find room that the other takes.
+    const bool waits = has_address_space_limit();
+    return std::async(waits ? std::launch::deferred : std::launch::async,
                       [device = std::move(choice)] { return Gpu(choose_device(device)); });
 }
 

@@ -60,8 +60,9 @@ struct Gpu {
     bool checks_arguments = false;  // kernels compare their arguments by name and type: for tests
 };
 
-/// Opens choose_device(choice) while the caller works; get() throws as these do. The environment is
-/// changed before it returns.
-std::future<Gpu> open_meanwhile(std::string choice);
+/// Opens choose_device(choice) in a thread of its own, with a limited address space in get(); get()
+/// throws what choose_device() and Gpu() throw. Environment variables for PoCL are set before this
+/// function returns.
+std::future<Gpu> open_gpu_async(std::string choice);
 
 }  // namespace kilolux

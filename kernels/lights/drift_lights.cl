@@ -60,7 +60,7 @@ kernel void drift_keys(global const LightSwarm* restrict swarm, uint count, Drif
     uint i = get_global_id(0);
     if (i >= count) return;
     LightDrift d = swarm_light(swarm, i);
-    DriftBox box = swarm->box[d.high.w];
+    DriftBox box = swarm->boxes[d.high.w];
     DriftPlace p = place_at(d, box, time);
     float scale = box.extent.w;
     uint key = light_order_key(cell_at(p.x, scale), cell_at(p.y, scale), cell_at(p.z, scale));
@@ -118,12 +118,10 @@ kernel void drift_lights(global const LightSwarm* restrict swarm, uint count,
     uint i = get_global_id(0);
     if (i >= count) return;
     LightDrift d = drifts[i];
-    DriftBox box = swarm->box[d.high.w];
+    DriftBox box = swarm->boxes[d.high.w];
     DriftPlace p = place_at(d, box, time);
     WorldLight row;
-    row.light = point_light_rows(
-        (float4)(p.x.x, p.y.x, p.z.x, box.min.w),
-        (float4)(as_float(d.low.w), as_float(d.rate_high.w), as_float(d.rate_low.w), 0.0f));
+    row.light = point_light_rows((float4)(p.x.x, p.y.x, p.z.x, box.min.w), drift_intensity(d));
     row.position_low = (float4)(p.x.y, p.y.y, p.z.y, 0.0f);
     world[first + i] = row;
 }

@@ -23,24 +23,24 @@ inline ulong mul_hi(ulong a, ulong b) {
 // A box that lights of one range drift in, as pairs of floats [m].
 SHARED_STRUCT(DriftBox) {
     float4 min, min_low;        // min.w: the lights' range [m]
-    float4 extent, extent_low;  // extent.w: cells of the lights' order a metre
-    // Upper and lower halves. xyz: twice the turns a second of the fastest light [2^-64 / s], below
-    // 1; w: the share of the lights that are in this box or one before it [2^-64]; not of the last
+    float4 extent, extent_low;  // extent.w: cells per metre of the ordering grid
+    // Upper and lower halves. xyz: twice the largest speed [2^-64 turns/s]; w: the cumulative share
+    // of the lights, up to and including this box [2^-64], unused in the last box
     uint4 rate_high, rate_low;
 };
 SHARED_ASSERT(drift_box_size, sizeof(DriftBox) == 96);
 
-// Generated point lights: all that makes each of them.
+// Generated point lights: the parameters from which every light follows.
 SHARED_STRUCT(LightSwarm) {
     uint seed_high, seed_low;
     float intensity;  // luminous intensity of the brightest channel [cd]
-    uint boxes;       // 1 .. SWARM_BOXES
-    DriftBox box[SWARM_BOXES];
+    uint box_count;   // 1 .. SWARM_BOXES
+    DriftBox boxes[SWARM_BOXES];
 };
 SHARED_ASSERT(light_swarm_size, sizeof(LightSwarm) == 16 + SWARM_BOXES * sizeof(DriftBox));
 
-// How a point light drifts along the axes of a box, reflected at its ends. Positions are turns of
-// 2^-64: a period is twice the box's extent.
+// How a point light drifts along the axes of a box, reflected at its ends. A position is a phase in
+// turns: in one turn a light crosses the box and returns.
 SHARED_STRUCT(LightDrift) {
     // xyz: turns at time 0, upper and lower halves; w: the box, luminous intensity's red [cd]
     uint4 high, low;
@@ -70,17 +70,17 @@ SHARED_FN ulong drift_share(ulong turns, ulong rate, DriftTime time) {
     return turns >> 63 ? 0ul - turns : turns;
 }
 
-// Of turns a second, uniform between -`twice_most` / 2 and that.
-SHARED_FN ulong drift_rate(ulong bits, ulong twice_most) {
+// A speed, uniform in +-`twice_max` / 2, from random bits.
+SHARED_FN ulong drift_rate(ulong bits, ulong twice_max) {
     ulong is_back = 1ul - (bits >> 63);
     ulong centred = bits ^ 0x8000000000000000ul;
-    ulong speed = mul_hi(is_back ? 0ul - centred : centred, twice_most);
+    ulong speed = mul_hi(is_back ? 0ul - centred : centred, twice_max);
     return is_back ? 0ul - speed : speed;
 }
 
 // 1 in the fixed point of colours.
 #define COLOUR_ONE 0x1000000ul
-// min(max(x, 0), 1) of x = |h - at| - 1, or 2 - |h - at|.
+// clamp(|h - at| - 1, 0, 1) where it falls towards `at`, else clamp(2 - |h - at|, 0, 1).
 SHARED_FN ulong hue_ramp(ulong h, ulong at, bool falls) {
     ulong distance = h > at ? h - at : at - h;
     ulong start = falls ? COLOUR_ONE : 2ul * COLOUR_ONE;
@@ -88,7 +88,7 @@ SHARED_FN ulong hue_ramp(ulong h, ulong at, bool falls) {
     return min(x, COLOUR_ONE);
 }
 
-// A channel: `pure` with this share of white, of the brightest one's intensity.
+// A channel's intensity [cd]: `pure` mixed with `white`, times the brightest channel's.
 SHARED_FN uint drift_channel(ulong pure, ulong white, float intensity) {
     ulong channel = white + ((COLOUR_ONE - white) * pure >> 24);
     return float_bits(float_of((uint)channel) * (1.0f / 16777216.0f) * intensity);
@@ -121,19 +121,19 @@ SHARED_FN LightDrift swarm_light(SWARM_POINTER swarm, ulong light) {
     ulong key = item_key(of_halves(swarm->seed_high, swarm->seed_low), light);
     LightDrift d;
     uint box = 0;
-    if (swarm->boxes > 1) {
+    if (swarm->box_count > 1) {
         ulong share = item_bits(key, DRIFT_BOX);
-        while (box + 1 < swarm->boxes &&
-               share >= of_halves(swarm->box[box].rate_high.w, swarm->box[box].rate_low.w))
+        while (box + 1 < swarm->box_count &&
+               share >= of_halves(swarm->boxes[box].rate_high.w, swarm->boxes[box].rate_low.w))
             ++box;
     }
-    uint4 most_high = swarm->box[box].rate_high, most_low = swarm->box[box].rate_low;
+    uint4 max_high = swarm->boxes[box].rate_high, max_low = swarm->boxes[box].rate_low;
     d.high.w = box;
 #define DRIFT_AXIS(axis, number)                                              \
     {                                                                         \
         ulong phase = item_bits(key, DRIFT_PHASE + number);                   \
         ulong rate = drift_rate(item_bits(key, DRIFT_RATE + number),          \
-                                of_halves(most_high.axis, most_low.axis));    \
+                                of_halves(max_high.axis, max_low.axis));      \
         d.high.axis = high_half(phase), d.low.axis = low_half(phase);         \
         d.rate_high.axis = high_half(rate), d.rate_low.axis = low_half(rate); \
     }
@@ -144,7 +144,13 @@ SHARED_FN LightDrift swarm_light(SWARM_POINTER swarm, ulong light) {
     return with_colour(d, key, swarm->intensity);
 }
 
-// Its place along an axis.
+// Its luminous intensity [cd].
+SHARED_FN float4 drift_intensity(LightDrift d) {
+    return make_float4(bits_float(d.low.w), bits_float(d.rate_high.w), bits_float(d.rate_low.w),
+                       0.0f);
+}
+
+// The share of the box's extent along an axis, see drift_share().
 #define DRIFT_SHARE(d, axis, time)                      \
     drift_share(of_halves((d).high.axis, (d).low.axis), \
                 of_halves((d).rate_high.axis, (d).rate_low.axis), time)

@@ -44,7 +44,7 @@ std::vector<float> coverage_of(const Frame& black, const Frame& white) {
 SceneRenderer::SceneRenderer(SharedOptions& options, const BudgetOptions& budget,
                              FirstPicture first)
     : options_(options),
-      device_(open_meanwhile(options.settings.device)),
+      device_(open_gpu_async(options.settings.device)),
       camera_at_(std::move(first.camera)),
       scene_(first.made ? AnimatedScene(std::move(*first.made)) : open_animated_scene(options)) {
     if (!camera_at_) {
@@ -58,9 +58,10 @@ SceneRenderer::SceneRenderer(SharedOptions& options, const BudgetOptions& budget
     camera_ = camera_at_(scene_.scene(), first.frame, first.time);
     check_interrupt();
     const RenderSettings settings = settings_of(budget, first.want, first.time);
+    // Before the helpers, which may change the environment.
+    const Gpu device = in_stage("renderer", [this] { return device_.get(); });
     if (first.on_lit) helpers_ = first.on_lit(scene_.scene(), settings);
-    renderer_.emplace(scene_.scene(), settings,
-                      in_stage("renderer", [this] { return device_.get(); }));
+    renderer_.emplace(scene_.scene(), settings, device);
     check_interrupt();
 }
 

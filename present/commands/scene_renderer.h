@@ -96,7 +96,7 @@ class SceneRenderer {
     RenderSettings settings_of(const BudgetOptions& budget, const FrameRequest& want, double time);
 
     SharedOptions& options_;
-    std::future<Gpu> device_;  // opens while the scene is loaded
+    std::future<Gpu> device_;  // opens while the scene is loaded; empty then
     std::function<Camera(const Scene&, int, double)> camera_at_;
     AnimatedScene scene_;
     Asked asked_;

@@ -48,6 +48,19 @@ TEST(SharedRows, FastDevicesMakeMoreAndAllEndTogether) {
     EXPECT_LE(bands[0] + bands[1], 16);
 }
 
+TEST(SharedRows, EqualGpusMakeTheirShareAtOnce) {
+    const auto device = [](const char* name, bool is_cpu) {
+        DeviceInfo info;
+        info.name = name;
+        info.is_cpu = is_cpu;
+        return info;
+    };
+    EXPECT_EQ(parts_for({device("a", false), device("a", false)}), 1);
+    EXPECT_EQ(parts_for({device("a", false), device("b", false)}), 16);
+    EXPECT_EQ(parts_for({device("a", true), device("a", true)}), 16);
+    EXPECT_EQ(parts_for({device("a", false), device("a", true)}), 16);
+}
+
 TEST(SharedRows, OnePartIsAnEqualShare) {
     SharedRows rows(2160, 16, 2, 1);
     EXPECT_EQ(rows.take(0)->rows, 1088);
@@ -69,7 +82,7 @@ TEST(SharedRows, ThoseGivenBackAreMadeByOthers) {
     EXPECT_FALSE(rows.take(0));
 }
 
-TEST(SharedRows, AreNotTakenAfterAStop) {
+TEST(SharedRows, TakeReturnsNoneAfterAStop) {
     SharedRows rows(32, 16, 2, 16);
     ASSERT_TRUE(rows.take(0) && rows.take(0));
     std::jthread other([&] { EXPECT_FALSE(rows.take(1)); });  // waits

@@ -47,14 +47,22 @@ TEST(KeyBindings, EachActsAndNoneTwice) {
     EXPECT_FALSE(keys.empty());
 }
 
-// Codes of printable keys are those of their letters.
+// "Shift+P": codes of printable keys are those of their letters.
+std::string name_of(const KeyBinding& binding) {
+    const int held = std::max(binding.modifiers, 0);
+    return std::string(held & GLFW_MOD_CONTROL ? "Ctrl+" : "") +
+           (held & GLFW_MOD_SHIFT ? "Shift+" : "") + static_cast<char>(binding.key);
+}
+
 TEST(KeyBindings, TheHelpNamesTheirKeys) {
     for (const KeyRow& row : key_rows()) {
+        std::string words = row.keys;
+        std::ranges::replace(words, ',', ' ');
+        const std::string names = " " + words + " ";
         for (const KeyBinding& binding : row.bindings) {
             if (binding.key <= GLFW_KEY_SPACE || binding.key > GLFW_KEY_Z) continue;
-            const char letter = static_cast<char>(binding.key);
-            EXPECT_NE(std::string_view(row.keys).find(letter), std::string_view::npos)
-                << row.keys << " without " << letter;
+            EXPECT_NE(names.find(" " + name_of(binding) + " "), std::string::npos)
+                << row.keys << " without " << name_of(binding);
         }
     }
 }

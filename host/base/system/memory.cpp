@@ -77,6 +77,8 @@ std::uint64_t loading_limit(std::uint64_t asked) {
 
 std::uint64_t resident_memory_bytes() { return process_bytes(true); }
 
+bool has_address_space_limit() { return address_space_limit() != kUnknown; }
+
 void require_address_space(std::uint64_t bytes, const std::string& what) {
     constexpr std::uint64_t kThreadBytes = std::uint64_t{28}
                                            << 20;  // stack and PoCL's local memory

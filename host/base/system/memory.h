@@ -17,6 +17,9 @@ std::uint64_t loading_limit(std::uint64_t asked);
 /// Resident memory of this process [byte].
 std::uint64_t resident_memory_bytes();
 
+/// Whether the address space is limited (RLIMIT_AS).
+bool has_address_space_limit();
+
 /// Throws Error if the limit of the address space (ulimit -v) leaves less than `bytes` and a stack
 /// for each core. Call it before loading `what` ("the library of images"), which would crash or
 /// never return with less. If there is a limit, all threads share two of malloc's arenas

@@ -206,10 +206,9 @@ std::vector<BenchRow> complete_points(std::vector<BenchRow> rows) {
 
 BenchLog::BenchLog(std::filesystem::path file, bool resume) : file_(std::move(file)) {
     if (!resume || !std::filesystem::exists(file_)) return;
-    std::string text = read_text(file_);
-    text.erase(text.rfind('\n') + 1);  // a copied file may end within a line
+    const std::string text = read_text(file_);
     try {
-        rows_ = complete_points(bench_rows(parse_csv(text)));
+        rows_ = complete_points(bench_rows(parse_csv(whole_lines(text))));
     } catch (const Error& error) {
         throw Error(fmt::format("{}: {}", file_.string(), error.what()));
     }

@@ -156,6 +156,8 @@ std::string to_markdown(const Table& table, int significant_digits) {
     return out;
 }
 
+std::string_view whole_lines(std::string_view csv) { return csv.substr(0, csv.rfind('\n') + 1); }
+
 TextTable parse_csv(std::string_view csv) {
     TextTable table;
     if (!csv.empty()) table.columns = take_csv_line(csv);

@@ -76,6 +76,9 @@ struct TextTable {
     std::vector<std::vector<std::string>> rows;
 };
 
+/// A CSV without a last line that does not end: a copied file may end within one.
+std::string_view whole_lines(std::string_view csv);
+
 /// Reads RFC 4180. Throws Error with the number of a line that has not as many fields as the first.
 TextTable parse_csv(std::string_view csv);
 

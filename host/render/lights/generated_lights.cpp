@@ -9,7 +9,10 @@ namespace {
 // Lights are ordered anew this often [s]: they move at most 1.2 m/s, so neighbours stay neighbours.
 constexpr double kOrderInterval = 0.5;
 
-double floor_to(double time, double interval) { return std::floor(time / interval) * interval; }
+double floor_to(double time, double interval) {
+    if (std::abs(time) >= 0x1p53) return time;  // whole, and a quotient may overflow
+    return std::floor(time / interval) * interval;
+}
 
 }  // namespace
 
@@ -17,7 +20,9 @@ void GeneratedLights::set(const LightOptions& options, const Scene& scene, doubl
     const LightGenerator made(options, scene, time);
     if (!generator_ || !generator_->has_paths_of(made)) {
         generator_.reset();  // a failure leaves none
+        count_ = 0;
         order_time_.reset();
+        order_.clear();
         box_ = {};
         for (const Box& part : made.parts()) {
             box_.add(part.min);

@@ -37,7 +37,7 @@ class GeneratedLights {
 
  private:
     DriftLights drift_;
-    std::optional<LightGenerator> generator_;  // of the time
+    std::optional<LightGenerator> generator_;  // at time_
     std::size_t count_ = 0;
     Box box_;
     double time_ = 0.0;                 // [s]

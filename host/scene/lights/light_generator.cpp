@@ -18,12 +18,12 @@
 namespace kilolux {
 namespace {
 
-constexpr double kCoverage = 10.0;         // mean number of lights that reach a point of the box
-constexpr double kShellCoverage = 40.0;    // the same of a shell
-constexpr double kExposedRadiance = 0.24;  // of a surface of albedo 0.5: middle of a tone curve
+constexpr double kCoverage = 10.0;          // mean number of lights that reach a point of the box
+constexpr double kShellCoverage = 40.0;     // the same of a shell
+constexpr double kExposedRadiance = 0.257;  // of a surface of albedo 0.5: middle of a tone curve
 constexpr double kExposedAlbedo = 0.5;
-// Of colour(hue) over all hues, measured; a test checks it.
-constexpr double kMeanLuminance = 0.591;
+// Of with_colour() over all hues, measured; a test checks it.
+constexpr double kMeanLuminance = 0.633;
 constexpr double kMaxSpeed = 1.2;              // [m/s] along one axis
 constexpr double kMinCrossing = 8.0;           // [s] that a light takes at least across the box
 constexpr std::uint64_t kLightsAtOnce = 4096;  // fewer are not worth a task
@@ -135,18 +135,18 @@ ulong fixed_point(double share) {
 }
 
 // Twice the turns a second of the fastest light along an axis of this extent.
-ulong twice_most_turns(double extent) {
+ulong twice_max_turns(double extent) {
     if (!(extent > 0.0)) return 0;
     return fixed_point(std::min(kMaxSpeed, extent / kMinCrossing) / extent);
 }
 
-// A box that lights of a range drift in; `share` of all lights are in it or one before it.
+// A box that lights of a range drift in; `share` of all lights are in it or in an earlier box.
 DriftBox drift_box(const Box& box, double range, double share) {
     const glm::dvec3 extents = box.size();
     const PointPair corner = point_pair(box.min.x, box.min.y, box.min.z);
     const PointPair size = point_pair(extents.x, extents.y, extents.z);
-    const ulong x = twice_most_turns(extents.x), y = twice_most_turns(extents.y),
-                z = twice_most_turns(extents.z), w = fixed_point(share);
+    const ulong x = twice_max_turns(extents.x), y = twice_max_turns(extents.y),
+                z = twice_max_turns(extents.z), w = fixed_point(share);
     DriftBox out{corner.high,
                  corner.low,
                  size.high,
@@ -159,7 +159,7 @@ DriftBox drift_box(const Box& box, double range, double share) {
 }
 
 // Parts get lights in proportion to their volumes.
-LightSwarm light_swarm(const LightOptions& options, const std::vector<Box>& parts) {
+LightSwarm make_swarm(const LightOptions& options, const std::vector<Box>& parts) {
     LightSwarm out{high_half(options.seed),
                    low_half(options.seed),
                    static_cast<float>(options.intensity),
@@ -170,7 +170,7 @@ LightSwarm light_swarm(const LightOptions& options, const std::vector<Box>& part
     for (std::size_t i = 0; i < parts.size(); ++i) {
         sum += volume(parts[i]);
         const double share = sum / all;  // of an empty or endless volume: not a number
-        out.box[i] = drift_box(parts[i], options.radius, share >= 0.0 ? share : 0.0);
+        out.boxes[i] = drift_box(parts[i], options.radius, share >= 0.0 ? share : 0.0);
     }
     return out;
 }
@@ -212,7 +212,7 @@ LightGenerator::LightGenerator(const LightOptions& options, const Scene& scene, 
     options_.radius = scale.radius;
     options_.intensity = scale.intensity;
     parts_ = parts_of(scale.region);
-    swarm_ = light_swarm(options_, parts_);
+    swarm_ = make_swarm(options_, parts_);
     time_ = drift_time(time);
 }
 
@@ -227,8 +227,8 @@ SceneLight LightGenerator::operator[](std::uint64_t light) const {
         const double at = box.min[axis] + share * (box.max[axis] - box.min[axis]);
         out.position[axis] = std::clamp(at, box.min[axis], box.max[axis]);
     }
-    out.intensity = {bits_float(drift.low.w), bits_float(drift.rate_high.w),
-                     bits_float(drift.rate_low.w)};
+    const float4 intensity = drift_intensity(drift);
+    out.intensity = {intensity.x, intensity.y, intensity.z};
     out.range = static_cast<float>(options_.radius);
     return out;
 }

@@ -44,14 +44,14 @@ class LightGenerator {
     /// The boxes that lights stay in: LightDrift::high.w.
     const std::vector<Box>& parts() const { return parts_; }
 
-    /// Whether the lights of another time have the same paths.
+    /// Whether both make the same lights, at whatever time.
     bool has_paths_of(const LightGenerator& other) const {
         return options_ == other.options_ && parts_ == other.parts_;
     }
 
  private:
     LightOptions options_;    // nothing automatic but the box
-    std::vector<Box> parts_;  // of the region: one, or six about a hole
+    std::vector<Box> parts_;  // of the region: one, or six around a hole
     LightSwarm swarm_{};
     DriftTime time_{};
 };

@@ -6,6 +6,13 @@
 
 namespace kilolux {
 
+int parts_for(const std::vector<DeviceInfo>& devices) {
+    const bool are_equal_gpus = std::ranges::all_of(devices, [&](const DeviceInfo& device) {
+        return !device.is_cpu && device.name == devices.front().name;
+    });
+    return are_equal_gpus ? 1 : 16;
+}
+
 SharedRows::SharedRows(int height, int least, std::size_t devices, int parts)
     : height_(height), step_(least), parts_(parts), speeds_(devices) {}
 

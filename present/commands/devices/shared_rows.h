@@ -7,14 +7,20 @@
 #include <optional>
 #include <vector>
 
+#include "host/gpu/device.h"
 #include "host/picture/bands.h"
 
 namespace kilolux {
 
+/// SharedRows' `parts` for these devices. Threads that launch kernels on GPUs wait for each other
+/// in the driver, which costs more than an uneven end: equal GPUs get 1, so each makes its share at
+/// once. Sponza at 3840x2160, exact shadows, 256 samples: one H200 takes 2.0 s, two take 1.3 s with
+/// 1 part, 2.3 s with 4 or 16.
+int parts_for(const std::vector<DeviceInfo>& devices);
+
 /// The rows of a picture, which several devices make at once. A free device takes the next rows:
-/// first one of `parts` equal parts of what an equally fast device would make, later half of its
-/// share of the remaining rows. Shares follow the measured speeds, so that all devices end
-/// together. Any thread may call all functions.
+/// first 1 / `parts` of an equal share of the rows, later half of its share of the rest. Shares
+/// follow the measured speeds, so that all devices end together. Any thread may call all functions.
 class SharedRows {
  public:
     /// `least`: rows are taken in multiples of it, see MemoryPlan::least_rows.

@@ -34,7 +34,7 @@ Result read_result(const fs::path& result) {
     Result out{csv_of(result), {}, {}};
     fs::path document = context_file(out.csv);
     const std::string text = read_text(out.csv);
-    out.table = in_file(out.csv, [&] { return parse_csv(text); });
+    out.table = in_file(out.csv, [&] { return parse_csv(whole_lines(text)); });
     if (!is_bench_table(out.table)) document = fs::path(out.csv).replace_extension(".json");
     out.document = Json::parse(read_text(document), nullptr, false);
     if (!out.document.is_object() || !out.document.contains("context") ||

@@ -112,6 +112,18 @@ TEST_F(RenderDevices, TellWhatEachDidOfAPicture) {
     EXPECT_LT(frame, first + second);
 }
 
+// Heights are multiples of 16: of 131 rows 80, then 51.
+TEST_F(RenderDevices, MakeEqualSharesWhereTheyAreEqualGpus) {
+    std::vector<std::string> words = picture_words(one_ / "a.png", "all");
+    words.insert(words.begin() + 1, "KILOLUX_DEVICE_KIND=gpu");
+    words.insert(words.end(), {"--samples", "200"});  // so long that both make rows
+    const ChildResult result = run_child(words);
+    ASSERT_EQ(result.code, 0) << result.err;
+    for (const char* rows : {": 80 rows in ", ": 51 rows in "}) {
+        EXPECT_TRUE(contains(result.err, rows)) << result.err;
+    }
+}
+
 TEST_F(RenderDevices, LeaveNothingOfAPictureThatIsInterrupted) {
     std::vector<std::string> words = picture_words(two_ / "a.png", "0,1");
     words.insert(words.end(), {"--samples", "65536"});

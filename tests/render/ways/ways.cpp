@@ -109,7 +109,7 @@ std::vector<ShownPixel> Ways::shown() const {
         for (int x = 0; x < settings_.width; ++x) {
             const std::size_t at =
                 static_cast<std::size_t>(y) * view().stride + static_cast<std::size_t>(x);
-            if (ids[at] != 0) out.push_back({x, y, at, ids[at], heights[ids[at]]});
+            if (ids[at] != 0) out.push_back({x, y, at, ids[at], heights.at(ids[at])});
         }
     }
     return out;
