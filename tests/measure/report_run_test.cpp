@@ -229,7 +229,8 @@ TEST(ReportRun, MeasuresWhatEachSettingCostsAndErrs) {
 // The time of a setting too slow for whole frames is that of its small frame alone.
 TEST(ReportRun, SlowSettingsAreTimedAgainAfterOthersWorkedBesideThem) {
     const Scene scene = make_generated_scene("grid");
-    RenderSettings large = small_settings(1 << 16, 1 << 16, 1000);
+    // So many lights that the larger frame takes longer, whatever works beside the small one.
+    RenderSettings large = small_settings(1 << 16, 1 << 16, 8000);
     large.renderer = RendererKind::deferred_all;  // too slow on any CPU
     ReportRun run({scene, first_camera(scene), 0.0}, large, {.width = 48});
     const ReportSetting asked{SettingAxis::none, "default", "", large};
