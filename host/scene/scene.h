@@ -109,7 +109,7 @@ enum class LightType : std::uint8_t { point, spot, directional };
 struct SceneLight {
     glm::dvec3 position{0.0};          // [m], world
     glm::dvec3 direction{0, 0, -1};    // unit, the way the light travels (spot, directional)
-    glm::dvec3 side{1, 0, 0};          // unit, perpendicular to it: how the light is turned about
+    glm::dvec3 side{1, 0, 0};          // unit, perpendicular to direction: the rotation about it
     glm::vec3 intensity{1.0f};         // linear Rec. 709; [cd], directional [lx]
     float range = 0.0f;                // [m]; 0: not given, see light_ranges.h
     float inner_cone = 0.0f;           // half angle [rad]

@@ -233,7 +233,7 @@ SHARED_FN FV3 reflected_radiance(Surface s, LightSum sum) {
     return out_radiance;
 }
 
-// Upper bounds of the light that a surface receives.
+// Upper bounds of the factors of the light that a surface receives.
 SHARED_PLAIN_STRUCT(LightBound) {
     FV cosine;       // n.h
     FV fresnel;      // Schlick's (1 - v.h)^5

@@ -52,7 +52,7 @@ inline constexpr int kPngLevel = 2;
 ///   atrium, half         0.0  49.8     0.8  25.8     0.2  25.5
 ///   atrium, 4 layers     0.0 431.3     7.3 294.4     2.3 262.7
 ///
-/// zip's level changes 2 % of its time; reading takes zip and piz alike.
+/// zip's level changes 2 % of its time. Reading zip and piz takes the same time.
 inline constexpr const char* kExrCompressions[] = {"none", "rle", "zips", "zip", "piz"};
 inline constexpr const char* kExrCompression = "piz";
 

@@ -41,7 +41,7 @@ class GeneratedLights {
     std::size_t count_ = 0;
     Box box_;
     double time_ = 0.0;                 // [s]
-    std::optional<double> order_time_;  // of the device's order; none: to be made
+    std::optional<double> order_time_;  // by which the device has ordered them; none: it has not
     std::vector<std::uint32_t> order_;  // on the host, if it was read
 };
 

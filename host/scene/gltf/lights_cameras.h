@@ -5,8 +5,9 @@
 
 namespace kilolux {
 
-/// Lights travel along their node's -Z, and X is their side; its scale does not matter. False where
-/// the node's X and Z span no plane: the side is any, and without Z the direction is 0.
+/// Lights travel along their node's -Z, and X is their side; its scale does not matter. Returns
+/// false where X and Z are parallel or zero: the side is arbitrary then, and the direction is 0
+/// where Z is.
 bool aim_light(SceneLight& light, const glm::dmat4& world_from_node);
 
 /// The lights of kLightExtensions at their nodes. Unusable values are kept: the renderer rejects

@@ -8,7 +8,7 @@
 namespace kilolux {
 
 /// The side of a light of this direction (unit): the part of `wanted` (unit) that is perpendicular
-/// to it, or another vector that is where `wanted` has none.
+/// to it, or any perpendicular vector where `wanted` is parallel to it.
 inline glm::dvec3 perpendicular_side(const glm::dvec3& direction,
                                      const glm::dvec3& wanted = SceneLight().side) {
     constexpr double kLeastSine = 1e-6;

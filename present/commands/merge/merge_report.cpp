@@ -52,7 +52,7 @@ TextTable merged_table(const std::vector<Result>& results, const std::vector<Res
     return out;
 }
 
-// Throws Error that names the file unless it is the table of a report.
+// The rows of a report's table. Throws Error that names the file for any other.
 std::vector<ReportRow> rows_of(const Result& result) {
     return in_file(result.csv, [&] {
         for (const ReportColumn& column : report_columns({})) {

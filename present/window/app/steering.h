@@ -6,12 +6,12 @@
 
 namespace kilolux {
 
-/// A frame's input, and what of it is the camera's.
+/// A frame's input, and which parts of it may move the camera.
 struct SteeringInput {
     const InputState& input;
     bool has_keys = true;   // no text field takes them
     bool has_wheel = true;  // the mouse is on no panel
-    bool drags = false;     // the mouse, begun on the picture
+    bool drags = false;     // the mouse; the drag began on the picture
     int height = 1;         // of the window, window coordinates
 };
 

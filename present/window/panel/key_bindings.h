@@ -9,7 +9,7 @@
 
 namespace kilolux {
 
-/// The action of a key, with Shift, Ctrl, both or none held, as `modifiers` says.
+/// The action of a key while exactly these of Shift and Ctrl are held.
 struct KeyBinding {
     static constexpr int kAnyModifiers = -1;
 

@@ -34,7 +34,7 @@ Sampler trilinear(Wrap wrap) {
 Material mapped_material(Scene& scene) {
     Material m;
     m.base_color_texture = add_noise(scene, 64, trilinear(Wrap::repeat), 1);
-    // Normals that point out of the surface: rounding would turn those whose sum nearly vanishes.
+    // Normals point outwards: one of nearly zero length would change its direction by rounding.
     m.normal_texture = add_noise(scene, 32, trilinear(Wrap::mirror), 2, 192);
     m.normal_scale = 0.3f;
     m.metallic_roughness_texture = add_noise(scene, 64, trilinear(Wrap::repeat), 3);

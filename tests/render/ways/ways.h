@@ -14,8 +14,8 @@ namespace kilolux {
 constexpr int kWayWidth = 144;
 constexpr int kWayHeight = 80;
 
-// As kernels/shared/triangle.h says, rounding moves a triangle by a few 2^-24 of its distance: by
-// 2^-23 as seen from the camera, of a picture kWayWidth pixels wide that is 2 along its wider side.
+// Rounding moves a vertex by up to 2^-23 of its distance (kernels/shared/triangle.h). On a picture
+// 2 wide and kWayWidth pixels across this is 2^-24 kWayWidth pixels; twice that is allowed.
 constexpr double kShift = 0x1p-23 * kWayWidth;  // [pixel]
 
 /// A small picture of physically based surfaces that the G-buffer keeps as floats.
