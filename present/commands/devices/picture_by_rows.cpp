@@ -4,7 +4,6 @@
 #include <deque>
 #include <memory>
 #include <mutex>
-#include <ranges>
 #include <utility>
 #include <vector>
 
@@ -112,8 +111,8 @@ PictureByRows render_by_rows(DeviceHelpers& helpers, SceneRenderer& pictures, bo
     RowsJob job(pictures.camera(), time);
     const int least = pictures.renderer().memory().least_rows;
     std::vector<DeviceInfo> devices{pictures.renderer().device()};
-    for (const DeviceShare& share : helpers.shares() | std::views::drop(1)) {
-        devices.push_back(share.info);
+    for (std::size_t i = 1; i < helpers.shares().size(); ++i) {
+        devices.push_back(helpers.shares()[i].info);
     }
     job.passes.emplace_back(settings, least, devices);
     if (has_alpha) job.passes.emplace_back(before_white(settings), least, devices);
