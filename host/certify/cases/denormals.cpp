@@ -82,7 +82,7 @@ DenormalOutput on_device(Gpu gpu, const DenormalInput& in, int shading, bool flu
     BuildOptions options = BuildOptions().define("SHADING", shading);
     if (flush) options.flag("-cl-denorms-are-zero");
     cl::KernelFunctor<cl::Buffer, cl::Buffer, uint, float, ClusterGrid, cl::Buffer, cl::Buffer>
-        kernel(build_probe(gpu, kEvaluateHeaders, kEvaluateProbe, options), "probe");
+        kernel(build_probe(gpu, kEvaluateHeaders, kEvaluateProbe, options).built(), "probe");
     const cl::Buffer out = new_buffer(gpu, std::vector<float>(in.x.size()));
     const cl::Buffer slices = new_buffer(gpu, std::vector<uint>(in.x.size()));
     const auto items = in.x.size() / static_cast<std::size_t>(gpu.info.lane_width);
