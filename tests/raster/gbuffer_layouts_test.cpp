@@ -60,7 +60,8 @@ TEST_F(GBufferLayoutsTest, ReadsAreThePlanesOfTheLayout) {
     for (uint layout = 0; layout <= GBUFFER_OCT_2X4; ++layout) {
         for (const bool optional : {false, true}) {
             GBufferNeeds needs = make_needs(layout);
-            needs.material = needs.occlusion = needs.specular = needs.unlit = optional;
+            needs.material = needs.occlusion = needs.specular = needs.clearcoat = needs.unlit =
+                optional;
             const GBufferLayout planes = make_gbuffer_layout(needs, 16, 1);
             const TargetPlan plan = plan_targets(needs);
             std::vector<uint> expected;

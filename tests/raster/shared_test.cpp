@@ -97,6 +97,7 @@ std::vector<SharedStruct> shared_structs() {
           {"row.emissive_cutoff", offsetof(MaterialRow, emissive_cutoff)},
           {"row.factors", offsetof(MaterialRow, factors)},
           {"row.specular", offsetof(MaterialRow, specular)},
+          {"row.clearcoat", offsetof(MaterialRow, clearcoat)},
           {"row.uv_x[0]", offsetof(MaterialRow, uv_x)},
           {"row.uv_y[0]", offsetof(MaterialRow, uv_y)},
           {"textures[0]", offsetof(SurfaceMaterial, textures)},

@@ -8,6 +8,7 @@
 #include "host/base/error.h"
 #include "host/certify/tail_scenarios.h"
 #include "tests/support/render_fixture.h"
+#include "tests/support/sphere_scene.h"
 
 namespace kilolux {
 namespace {
@@ -59,6 +60,30 @@ TEST(LightTreePictures, ErrWithinTheirBound) {
             EXPECT_GT(found.looseness.size(), 500u) << share;  // it groups
             EXPECT_LE(found.largest_error, 0.5 * share);
         }
+    }
+}
+
+// The coat's normal is not the surface's: nodes of lights that only the coat faces count.
+TEST(LightTreePictures, ErrWithinTheirBoundUnderCoats) {
+    Scene scene = car_paint_scene();
+    scene.materials[0].normal_scale = 2.0f;
+    for (int i = 0; i < 1500; ++i) {
+        SceneLight light;
+        light.position = {9.0 * std::fmod(0.6180339 * i, 1.0) - 4.5,
+                          1.0 + std::fmod(0.3247 * i, 2.0),
+                          9.0 * std::fmod(0.7548776 * i, 1.0) - 4.5};
+        light.intensity = {1.0f, 3.0f, 2.0f};
+        scene.lights.push_back(light);
+    }
+    const Camera camera = look_at({0.5, 0.8, 4.0}, {0, 0, 0}, {0, 1, 0}, 0.55);
+    for (const Tails tails : {Tails::tree, Tails::bounded}) {
+        RenderSettings settings = tree_settings(10.0f);
+        settings.width = settings.height = 48;
+        settings.tails = tails;
+        settings.range_budget = 0.05;
+        const TailAgreement found = compare_tails({"", scene, camera}, settings);
+        EXPECT_EQ(found.below, 0);
+        EXPECT_GT(found.looseness.size(), 500u);
     }
 }
 

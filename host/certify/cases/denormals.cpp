@@ -44,7 +44,7 @@ kernel void probe(global const float* x, global const ShadeLight* lights, uint l
     ShadingPoint p = make_shading_point(s, false);
     LightSum sum = zero_sum();
     for (uint k = 0; k < light_count; ++k) sum = evaluate(sum, p, lights[k]);
-    lane_store(finish_shading(s, sum, 0.0f).x, out + i);
+    lane_store(finish_shading(s, p, sum, 0.0f).x, out + i);
     lane_store(slice_of_depth(grid, lane_load(x + i) * 1e-30f), slices + i);
 }
 )";
@@ -109,7 +109,7 @@ DenormalOutput on_host(const DenormalInput& in, bool flush) {
         const ShadingPoint p = make_shading_point(s, false);
         LightSum sum = zero_sum();
         for (const ShadeLight& light : in.lights) sum = evaluate(sum, p, light);
-        out.radiance.push_back(finish_shading(s, sum, 0.0f).x);
+        out.radiance.push_back(finish_shading(s, p, sum, 0.0f).x);
         out.slices.push_back(slice_of_depth(in.grid, x * 1e-30f));
     }
 #if defined(__SSE2__)

@@ -95,6 +95,9 @@ std::vector<SurfaceSample> random_surfaces(uint width, uint height) {
         s.metallic = random.below(2);
         s.specular = {random.unit(), random.unit(), random.unit()};
         s.specular_f90 = random.unit();
+        s.coat = random.unit();
+        s.coat_roughness = random.uniform(0.1, 1.0);
+        s.coat_normal = s.normal;
         surfaces.push_back(s);
     }
     return surfaces;

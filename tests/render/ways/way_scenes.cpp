@@ -47,6 +47,12 @@ Material mapped_material(Scene& scene) {
     m.specular_color_texture = add_noise(scene, 64, trilinear(Wrap::repeat), 6);
     m.specular_texture = add_noise(scene, 64, trilinear(Wrap::repeat), 7);
     m.specular = 0.8f;
+    m.clearcoat_texture = add_noise(scene, 64, trilinear(Wrap::repeat), 8);
+    m.clearcoat = 0.9f;
+    m.clearcoat_roughness_texture = add_noise(scene, 64, trilinear(Wrap::repeat), 9);
+    m.clearcoat_roughness = 0.7f;
+    m.clearcoat_normal_texture = add_noise(scene, 64, trilinear(Wrap::repeat), 10, 192);
+    m.clearcoat_normal_scale = 0.2f;
     return m;
 }
 
