@@ -104,7 +104,7 @@ std::vector<SharedStruct> shared_structs() {
           MEMBER(SurfaceMaterial, flags),
           MEMBER(SurfaceMaterial, lookup_use),
           MEMBER(SurfaceMaterial, unused0),
-          MEMBER(SurfaceMaterial, unused1)},
+          MEMBER(SurfaceMaterial, lookup_shared)},
          "flags"},
         {"TextureRow",
          "kernels/shared/surface_scene.h",
