@@ -112,6 +112,7 @@ std::vector<SurfaceSample> mirrored(const std::vector<SurfaceSample>& surfaces) 
         SurfaceSample s = surfaces[i];
         s.position.x = -s.position.x;
         s.normal.x = -s.normal.x;
+        s.coat_normal.x = -s.coat_normal.x;
         out[i - x + (kMirrorWidth - 1 - x)] = s;
     }
     return out;
