@@ -86,9 +86,11 @@ SHARED_PLAIN_STRUCT(GgxLobe) {
 SHARED_PLAIN_STRUCT(ShadingPoint) {
     FV3 position;
     FV3 normal;
-    FV3 to_eye;    // unit
-    GgxLobe lobe;  // pbr
-    FV exponent;   // blinn-phong: of cos^2
+    FV3 to_eye;   // unit
+    FV exponent;  // blinn-phong: of cos^2
+#if SHADING == SHADING_PBR
+    GgxLobe lobe;
+#endif
 #if F0_VARIES
     FV3 f0;  // pbr: reflectance head on
 #endif
