@@ -5,6 +5,12 @@
 
 namespace kilolux {
 
+SurfaceFeatures alpha_features(SurfaceFeatures features) {
+    features.anisotropy = 1;
+    features.texture_uses &= 1u << USE_BASE_COLOR;
+    return features;
+}
+
 std::vector<std::pair<std::string, std::string>> surface_macros(const SurfaceFeatures& features) {
     const auto flag = [](bool value) { return std::string(value ? "1" : "0"); };
     return {{"TEXTURE_USES", std::to_string(features.texture_uses)},

@@ -24,6 +24,9 @@ struct SurfaceFeatures {
     auto operator<=>(const SurfaceFeatures&) const = default;
 };
 
+/// The part of them that alpha reads, with one sample of its texture.
+SurfaceFeatures alpha_features(SurfaceFeatures features);
+
 /// Their macros with values, for OpenCL C and GLSL.
 std::vector<std::pair<std::string, std::string>> surface_macros(const SurfaceFeatures& features);
 

@@ -64,21 +64,4 @@ void ForwardShading::draw(const Sample& sample, const HostCoarseLists* lists,
     upload<float>(context_.gpu, radiance.planes, lit);
 }
 
-BlendedPass::BlendedPass(const RenderContext& context, bool clustered)
-    : context_(context),
-      pass_(context.meshes(), forward_features(context.plan, clustered, false)) {}
-
-void BlendedPass::draw(const Sample& sample, const Radiance& radiance,
-                       const GBufferTargets& targets, const HostCoarseLists* lists, Measured out) {
-    const RenderSettings& settings = context_.settings;
-    const View& view = radiance.view;
-    const auto planes =
-        download<float>(context_.gpu, radiance.planes, std::size_t{3} * view.stride * view.height);
-    pass_.draw_blended(crop(sample.camera, settings.height, sample.band), view, targets, planes,
-                       forward_lights(sample, settings.ambient, lists));
-    const std::vector<float> lit = pass_.read_radiance(view.stride);
-    out.timer.record_host(kBlendedStage, pass_.last_ms());
-    upload<float>(context_.gpu, radiance.planes, lit);
-}
-
 }  // namespace kilolux

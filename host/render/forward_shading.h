@@ -12,7 +12,6 @@ namespace kilolux {
 StageWork forward_work(const StageCounts& counts);
 inline constexpr StageInfo kForwardStage = {"forward", StageGroup::shading, forward_work};
 inline constexpr StageInfo kForwardPlusStage = {"forward_plus", StageGroup::shading, forward_work};
-inline constexpr StageInfo kBlendedStage = {"blended", StageGroup::picture};
 
 /// The features that forward shading compiles in for a plan. `opaque`: see ForwardFeatures.
 ForwardFeatures forward_features(const ScenePlan& plan, bool clustered, bool opaque);
@@ -38,25 +37,6 @@ class ForwardShading {
     const RenderContext& context_;
     ForwardPass pass_;
     GrowingArray<float> radiance_;
-};
-
-/// Surfaces that blend, drawn by OpenGL over a lit picture.
-class BlendedPass {
- public:
-    /// Bytes of a pixel on the host: the light before and after, and OpenGL's copy of it.
-    static constexpr std::size_t kPixelBytes = 3 * Radiance::kPixelBytes;
-
-    /// `clustered`: draw() gets lists.
-    BlendedPass(const RenderContext& context, bool clustered);
-
-    /// Draws them over `radiance`, behind what `targets` show. `lists`: null for every light.
-    /// Blocks.
-    void draw(const Sample& sample, const Radiance& radiance, const GBufferTargets& targets,
-              const HostCoarseLists* lists, Measured out);
-
- private:
-    const RenderContext& context_;
-    ForwardPass pass_;
 };
 
 }  // namespace kilolux

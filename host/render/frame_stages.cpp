@@ -30,9 +30,7 @@ FrameStages::FrameStages(RenderContext& context) : context_(context) {
     } else {
         shade_all_.emplace(gpu, tuning, features, context.surface_features());
     }
-    if (!context.blends()) return;
-    if (lists_) lists_->list_everywhere();
-    blended_.emplace(context, lists_.has_value());
+    if (context.blends()) layers_.emplace(context);
 }
 
 void FrameStages::draw_surfaces(const Sample& sample, LitBand& band, Measured out) {
@@ -90,10 +88,9 @@ Room FrameStages::room(const LitBand& band, Measured out) {
     return out_room;
 }
 
-void FrameStages::blend(const Sample& sample, LitBand& band, Measured out) {
-    if (!blended_) return;
-    if (lists_) band.coarse = lists_->download_coarse(band.lists);
-    blended_->draw(sample, band.light, surfaces_->targets(), lists_ ? &band.coarse : nullptr, out);
+void FrameStages::blend(const Sample& sample, LitBand& band, EnvironmentLight& environment,
+                        Measured out) {
+    if (layers_) layers_->draw(sample, band, environment, out);
 }
 
 void FrameStages::draw_missing_surfaces(const Camera& camera, LitBand& band) {

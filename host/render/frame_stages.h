@@ -5,6 +5,7 @@
 
 #include "host/lighting/deferred_lighting.h"
 #include "host/render/forward_shading.h"
+#include "host/render/layers.h"
 #include "host/render/lit_band.h"
 #include "host/render/surface_pass.h"
 
@@ -46,9 +47,9 @@ class FrameStages {
     /// device where stages count what they need. Sets the counts of lists.
     Room room(const LitBand& band, Measured out);
 
-    /// OpenGL's surfaces that blend, over the lit ones. Blocks.
-    void blend(const Sample& sample, LitBand& band, Measured out);
-    bool blends() const { return blended_.has_value(); }
+    /// Surfaces that blend, over the lit ones. Blocks.
+    void blend(const Sample& sample, LitBand& band, EnvironmentLight& environment, Measured out);
+    bool blends() const { return layers_.has_value(); }
 
     /// Draws the G-buffer for the forward renderers, which only later requests need.
     void draw_missing_surfaces(const Camera& camera, LitBand& band);
@@ -75,7 +76,7 @@ class FrameStages {
     std::optional<Shade> shade_;
     std::optional<AllLightsLighting> shade_all_;
     std::optional<ForwardShading> forward_;
-    std::optional<BlendedPass> blended_;
+    std::optional<Layers> layers_;
 };
 
 }  // namespace kilolux

@@ -59,6 +59,16 @@ SurfaceFeatures RenderContext::surface_features() const {
                                      chosen_anisotropy(settings, gpu.info));
 }
 
+SurfaceScene& RenderContext::device_surfaces() {
+    if (!surfaces) {
+        surfaces = std::make_shared<SurfaceScene>(gpu, tuning, scene->scene(), surface_features());
+    }
+    return *surfaces;
+}
+
+// A GPU's work-items resolve one pixel each: lanes of one work-item would wait for each other.
+Gpu RenderContext::resolving_gpu() const { return gpu.info.is_cpu ? gpu : gpu.with_lanes(1); }
+
 ClusterGrid RenderContext::coarse_grid(const Camera& camera) const {
     const uint layout = is_forward(settings.renderer) ? GBUFFER_PACKED : settings.gbuffer;
     const Box& box = scene->box();
@@ -74,7 +84,7 @@ ScenePlan plan_of(const Scene& scene, const RenderSettings& settings) {
 bool draws_in_opencl(const RenderScene& scene, const RenderSettings& settings,
                      const Tuning& tuning) {
     return resolves_ids(settings.geometry) && !is_forward(settings.renderer) &&
-           !has_blended_surfaces(scene.scene()) && chooses_compute(scene, settings, tuning);
+           chooses_compute(scene, settings, tuning);
 }
 
 RenderContext make_context(std::shared_ptr<RenderScene> scene, const RenderSettings& settings,

@@ -39,7 +39,7 @@ struct RenderContext {
     bool blends() const { return has_blended_surfaces(scene->scene()); }
 
     /// Whether OpenGL's fragments are lit, from lights on the host.
-    bool lights_on_host() const { return is_forward(settings.renderer) || blends(); }
+    bool lights_on_host() const { return is_forward(settings.renderer); }
 
     /// Whether the picture is made in one band.
     bool is_whole() const;
@@ -49,6 +49,12 @@ struct RenderContext {
 
     /// The coarse grid of a frame.
     ClusterGrid coarse_grid(const Camera& camera) const;
+
+    /// The scene's surfaces on the device.
+    SurfaceScene& device_surfaces();
+
+    /// The device with the lanes of kernels that resolve triangles.
+    Gpu resolving_gpu() const;
 
     /// The features that resolve_surfaces and shadow casters read of the scene's materials.
     SurfaceFeatures surface_features() const;

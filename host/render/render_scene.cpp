@@ -54,13 +54,7 @@ int RenderScene::opengl_limit() const {
 }
 
 const GpuScene& RenderScene::meshes(GpuSceneUse use, int anisotropy) const {
-    try {
-        if (own_context_ && !context_) context_.emplace(GlContext::headless());
-    } catch (const Error& error) {
-        if (!has_blended_surfaces(scene_)) throw;
-        throw Error(std::string("surfaces that blend (alphaMode BLEND) are drawn by OpenGL: ") +
-                    error.what());
-    }
+    if (own_context_ && !context_) context_.emplace(GlContext::headless());
     return meshes_.try_emplace({use, anisotropy}, scene_, anisotropy, use).first->second;
 }
 

@@ -20,9 +20,6 @@ std::optional<OpenTiles> open_tiles(const Sample& sample, int first_row) {
     return out;
 }
 
-// A GPU's work-items resolve one pixel each: lanes of one work-item would wait for each other.
-Gpu resolving(const Gpu& gpu) { return gpu.info.is_cpu ? gpu : gpu.with_lanes(1); }
-
 // Work-groups take a tile each, and the slowest tile keeps all others waiting: a picture that has
 // few tiles for every unit of the device gets smaller ones.
 Tuning raster_tuning(const RenderContext& context) {
@@ -58,19 +55,13 @@ SurfacePass::SurfacePass(RenderContext& context) : context_(context), bridge_(co
         planes_.emplace(context.meshes(), context.plan.gbuffer);
         return;
     }
-    const Gpu gpu = resolving(context.gpu);
+    const Gpu gpu = context.resolving_gpu();
     const Scene& scene = context.scene->scene();
     const SurfaceFeatures features = context.surface_features();
-    if (!context.surfaces) {
-        context.surfaces =
-            std::make_shared<SurfaceScene>(context.gpu, context.tuning, scene, features);
-    }
+    context.device_surfaces();
     if (context.draws_in_opencl) {
         triangles_.emplace(gpu, raster_tuning(context), scene, features);
     } else {
-        if (context.settings.geometry == Geometry::compute) {
-            note("geometry  OpenGL draws: some of the scene's surfaces blend");
-        }
         ids_.emplace(context.meshes());
     }
     resolve_.emplace(gpu, context.tuning, context.plan.kernels, features);
@@ -146,7 +137,7 @@ GBuffer SurfacePass::draw_ids(const Sample& sample, Measured out) {
     const DeviceArray<uint> ids =
         bridge_.transfer_ids(ids_->targets(), view, band.first_row - tile.first_row);
     out.timer.record_host(kGBufferBridgeStage, bridge_.last_ms());
-    return resolve(ids, context_.surfaces->at(ids_->draws()), view, sample, out);
+    return resolve(ids, context_.device_surfaces().at(ids_->draws()), view, sample, out);
 }
 
 GBuffer SurfacePass::draw_in_opencl(const Sample& sample, Measured out) {
@@ -156,7 +147,7 @@ GBuffer SurfacePass::draw_in_opencl(const Sample& sample, Measured out) {
     const std::vector<Draw> draws =
         triangles_->visible(crop(sample.camera, settings.height, sample.band), settings.width,
                             sample.band.rows, open ? &*open : nullptr);
-    const SurfaceBuffers scene = context_.surfaces->at(draws);
+    const SurfaceBuffers scene = context_.device_surfaces().at(draws);
     const DeviceArray<uint> ids =
         triangles_->enqueue(scene, draws, view, out.timer, open ? &*open : nullptr);
     is_checked_ = false;
@@ -180,7 +171,8 @@ GBuffer SurfacePass::resolve(const DeviceArray<uint>& all_ids, const SurfaceBuff
 void SurfacePass::count(const DeviceArray<uint>& ids, const SurfaceBuffers& scene, const View& view,
                         FrameStats& stats) {
     if (!texels_) {
-        texels_.emplace(resolving(context_.gpu), context_.tuning, context_.surfaces->features());
+        texels_.emplace(context_.resolving_gpu(), context_.tuning,
+                        context_.device_surfaces().features());
     }
     StageTimer untimed;
     const std::size_t size = std::size_t{view.stride} * view.height;

@@ -13,12 +13,9 @@ namespace {
 
 constexpr std::string_view kOwner = "surfaces";
 
-// Features of the surfaces that do not blend.
-MeshFeatures solid_features(const Scene& scene, const SurfaceFeatures& features) {
-    return [&scene, features](const Mesh& mesh) -> std::optional<SurfaceFeatures> {
-        if (is_blended(scene, mesh)) return {};
-        return features;
-    };
+// The same features of every mesh.
+MeshFeatures same_features(const SurfaceFeatures& features) {
+    return [features](const Mesh&) -> std::optional<SurfaceFeatures> { return features; };
 }
 
 void upload_texels(const Gpu& gpu, const Tuning& tuning, const Scene& scene,
@@ -38,7 +35,7 @@ void upload_texels(const Gpu& gpu, const Tuning& tuning, const Scene& scene,
 
 std::uint64_t surface_scene_bytes(const Scene& scene, const SurfaceFeatures& features) {
     std::uint64_t bytes =
-        TextureTable(scene, solid_features(scene, features)).texels() * sizeof(std::uint64_t);
+        TextureTable(scene, same_features(features)).texels() * sizeof(std::uint64_t);
     for (const Mesh& mesh : scene.meshes) {
         bytes += vertex_floats(mesh, features) * mesh.positions.size() * sizeof(float) +
                  mesh.indices.size() * sizeof(uint) + sizeof(MeshRow);
@@ -63,7 +60,7 @@ SurfaceScene::SurfaceScene(const Gpu& gpu, const Tuning& tuning, const Scene& sc
     : gpu_(gpu),
       scene_(scene),
       features_(features),
-      solid_(solid_features(scene, features)),
+      mesh_features_(same_features(features)),
       instances_(gpu, kOwner),
       blocks_(gpu, kOwner),
       meshes_(gpu, kOwner),
@@ -80,8 +77,8 @@ SurfaceScene::~SurfaceScene() {
 }
 
 void SurfaceScene::upload_rows(const Tuning& tuning) {
-    const TextureTable table(scene_, solid_);
-    rows_ = surface_rows(scene_, solid_, table);
+    const TextureTable table(scene_, mesh_features_);
+    rows_ = surface_rows(scene_, mesh_features_, table);
     upload<SurfaceMaterial>(gpu_, materials_.reserve(rows_.materials.size()), rows_.materials);
     upload<TextureRow>(gpu_, textures_.reserve(table.rows().size()), table.rows());
     upload<MeshRow>(gpu_, meshes_.reserve(rows_.meshes.size()), rows_.meshes);
@@ -93,10 +90,11 @@ void SurfaceScene::upload_rows(const Tuning& tuning) {
 }
 
 void SurfaceScene::refresh_vertices() {
-    rewrite_vertices(rows_, scene_, solid_, [&](std::size_t first, std::span<const float> rows) {
-        gpu_.queue.enqueueWriteBuffer(vertices_.get(), CL_TRUE, first * sizeof(float),
-                                      rows.size_bytes(), rows.data());
-    });
+    rewrite_vertices(
+        rows_, scene_, mesh_features_, [&](std::size_t first, std::span<const float> rows) {
+            gpu_.queue.enqueueWriteBuffer(vertices_.get(), CL_TRUE, first * sizeof(float),
+                                          rows.size_bytes(), rows.data());
+        });
 }
 
 SurfaceBuffers SurfaceScene::at(std::span<const Draw> draws) {

@@ -19,7 +19,7 @@ std::uint64_t surface_scene_bytes(const Scene& scene, const SurfaceFeatures& fea
 std::vector<uint> instance_blocks(std::span<const InstanceRow> rows, uint triangles);
 
 /// A scene's surfaces on the OpenCL device: vertices, triangles, materials, and textures with their
-/// mip levels. Only attributes that the features read are there; surfaces that blend are not.
+/// mip levels. Only attributes that the features read are there.
 class SurfaceScene {
  public:
     /// The scene must outlive this; its materials and textures must stay as they are and its meshes
@@ -43,7 +43,7 @@ class SurfaceScene {
     Gpu gpu_;
     const Scene& scene_;
     SurfaceFeatures features_;
-    MeshFeatures solid_;
+    MeshFeatures mesh_features_;
     SurfaceRows rows_;  // on the device
     // Host memory that the device may still be reading.
     struct Drawn {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Alpha masks at a triangle's pixels: glTF's alphaMode MASK. Sampled as resolve_surfaces does with
+// Alpha at a triangle's pixels: glTF's alphaModes MASK and BLEND. Sampled as resolve_surfaces does with
 // one sample a pixel, whatever the anisotropy, and with the same bits on every device.
 #ifndef KILOLUX_DEVICE_ALPHA_MASK_H
 #define KILOLUX_DEVICE_ALPHA_MASK_H
@@ -45,8 +45,8 @@ static inline MaskedTriangle fetch_masked_triangle(SurfaceScene scene, View view
     return masked;
 }
 
-// The pixels that alpha keeps, whether the triangle covers them or not.
-static inline MASK passes_mask(SurfaceScene scene, View view, const MaskedTriangle* t,
+// The material's alpha at pixels, whether the triangle covers them or not.
+static inline FV covered_share(SurfaceScene scene, View view, const MaskedTriangle* t,
                                Pixels pixels) {
     Weights w = weights_of(view, pixels, t->edges);
     Fragment f;
@@ -59,6 +59,12 @@ static inline MASK passes_mask(SurfaceScene scene, View view, const MaskedTriang
 #if HAS_VERTEX_COLOR
     f.color.w = interpolate(w, t->alpha[0], t->alpha[1], t->alpha[2]);
 #endif
-    return passes_cutoff(t->material, alpha_of(scene, t->material, &f));
+    return alpha_of(scene, t->material, &f);
+}
+
+// The pixels that alpha keeps, likewise.
+static inline MASK passes_mask(SurfaceScene scene, View view, const MaskedTriangle* t,
+                               Pixels pixels) {
+    return passes_cutoff(t->material, covered_share(scene, view, t, pixels));
 }
 #endif

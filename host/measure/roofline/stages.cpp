@@ -29,9 +29,11 @@
 #include "host/stages/shadows/draw_shadows.h"
 #include "host/stages/shadows/shadow_origins.h"
 #include "host/stages/surfaces/bin_triangles.h"
+#include "host/stages/surfaces/blend_layer.h"
 #include "host/stages/surfaces/build_mips.h"
 #include "host/stages/surfaces/count_texels.h"
 #include "host/stages/surfaces/decode_gbuffer.h"
+#include "host/stages/surfaces/raster_layers.h"
 #include "host/stages/surfaces/raster_triangles.h"
 #include "host/stages/surfaces/repack_gbuffer.h"
 #include "host/stages/surfaces/resolve_surfaces.h"
@@ -41,21 +43,27 @@
 namespace kilolux {
 namespace {
 
-constexpr const StageInfo* kStages[] = {
-    &kLightInputStage,         &kGeometryStage,        &kGBufferBridgeStage,
-    &kMoveLightsStage,         &kBinTrianglesStage,    &kRasterTrianglesStage,
-    &kMaskTilesStage,          &kResolveSurfacesStage, &kPrepareLightsStage,
-    &kBuildClustersStage,      &kCullLightsStage,      &kBinPixelsStage,
-    &kRefineLightsStage,       &kCutLightTreeStage,    &kCountPairsStage,
-    &kShadowSceneStage,        &kShadowOriginsStage,   &kDrawShadowsStage,
-    &kCastShadowsStage,        &kShadeStage,           &kForwardStage,
-    &kForwardPlusStage,        &kBlendedStage,         &kFillBackgroundStage,
-    &kReflectEnvironmentStage, &kBloomStage,           &kTailErrorsStage,
-    &kSumSamplesStage,         &kAdaptiveSamplesStage, &kTonemapStage,
-    &kReadBackStage,           &kLaunchStage,          &kEnqueueStage,
-    &kAllocateStage,           &kBuildMipsStage,       &kDecodeGbufferStage,
-    &kCountTexelsStage,        &kCountLightsStage,     &kCountSeenStage,
-    &kRepackGbufferStage,      &kPackRadianceStage};
+constexpr const StageInfo* kStages[] = {&kLightInputStage,     &kGeometryStage,
+                                        &kGBufferBridgeStage,  &kMoveLightsStage,
+                                        &kBinTrianglesStage,   &kRasterTrianglesStage,
+                                        &kMaskTilesStage,      &kResolveSurfacesStage,
+                                        &kPrepareLightsStage,  &kBuildClustersStage,
+                                        &kCullLightsStage,     &kBinPixelsStage,
+                                        &kRefineLightsStage,   &kCutLightTreeStage,
+                                        &kCountPairsStage,     &kShadowSceneStage,
+                                        &kShadowOriginsStage,  &kDrawShadowsStage,
+                                        &kCastShadowsStage,    &kShadeStage,
+                                        &kForwardStage,        &kForwardPlusStage,
+                                        &kRasterLayersStage,   &kBlendLayerStage,
+                                        &kFillBackgroundStage, &kReflectEnvironmentStage,
+                                        &kBloomStage,          &kTailErrorsStage,
+                                        &kSumSamplesStage,     &kAdaptiveSamplesStage,
+                                        &kTonemapStage,        &kReadBackStage,
+                                        &kLaunchStage,         &kEnqueueStage,
+                                        &kAllocateStage,       &kBuildMipsStage,
+                                        &kDecodeGbufferStage,  &kCountTexelsStage,
+                                        &kCountLightsStage,    &kCountSeenStage,
+                                        &kRepackGbufferStage,  &kPackRadianceStage};
 
 }  // namespace
 

@@ -12,7 +12,7 @@
 #include "host/picture/bands.h"
 #include "host/picture/decoded_surfaces.h"
 #include "host/render/environment_light.h"
-#include "host/render/forward_shading.h"
+#include "host/render/layers.h"
 #include "host/render/whole_picture.h"
 #include "host/stages/lights/drift_lights.h"
 #include "host/stages/lights/move_lights.h"
@@ -138,7 +138,9 @@ Bytes band_pixel_bytes(const RenderSettings& settings, const ScenePlan& plan, bo
     }
     if (decodes || settings.want.counts) bytes += 2 * CountLights::kPixelBytes;  // and on the host
     if (decodes) bytes += 2 * DecodeGBuffer::kPixelBytes + layer_bytes(settings);
-    if (blends) bytes += BlendedPass::kPixelBytes;
+    if (blends)
+        bytes += static_cast<Bytes>(plan.gbuffer_bytes_per_pixel) + kBandPixel +
+                 BinPixels::kPixelBytes + Layers::kPixelBytes;
     return bytes;
 }
 
@@ -153,12 +155,12 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
     Need need;
     const Bytes on_device = scene_device_bytes(scene, settings, plan, ids);
     need.device_fixed = on_device + width * height * whole_picture_pixel_bytes(settings);
-    need.fixed = kProgram + scene_bytes(scene, !ids || blends) + need.device_fixed;
+    need.fixed = kProgram + scene_bytes(scene, !ids) + need.device_fixed;
     need.picture_pixel = picture_pixel_bytes(settings);
     need.fixed += settings.want.crop_pixels * need.picture_pixel;
     if (settings.want.view == ViewKind::difference)
         need.fixed += on_device;  // of the reference pipeline
-    Bytes target_pixel = is_forward(settings.renderer) || blends ? ForwardPass::kPixelBytes : 0;
+    Bytes target_pixel = is_forward(settings.renderer) ? ForwardPass::kPixelBytes : 0;
     if (!is_forward(settings.renderer) && !draws_in_opencl) {
         target_pixel += ids ? IdsPass::kPixelBytes : plan_targets(plan.gbuffer).pixel_bytes;
     }
@@ -174,10 +176,6 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
 Bytes most_rows(const Need& need, const DeviceInfo& device, Bytes width) {
     const Bytes buffer = std::min<Bytes>(device.max_allocation_bytes, 0xf0000000u);
     return std::min(buffer / need.largest_element, kMostBandPixels) / width;
-}
-
-bool needs_whole_tiles(const Scene& scene, const RenderSettings& settings) {
-    return is_forward(settings.renderer) || has_blended_surfaces(scene);
 }
 
 std::string lights_text(Bytes count, const char* kind) {
@@ -248,7 +246,7 @@ MemoryPlan plan_memory(const Scene& scene, const RenderSettings& settings, const
     const Bytes width = padded_width(settings);
     const int whole = (settings.height + FINE_TILE - 1) / FINE_TILE * FINE_TILE;
     const int tile = is_forward(settings.renderer) ? whole : std::min(whole, kRasterRows);
-    const int lowest = needs_whole_tiles(scene, settings) ? tile : FINE_TILE;
+    const int lowest = is_forward(settings.renderer) ? tile : FINE_TILE;
     const auto [strip, fixed] = choose_strip(settings, need, lowest, limit);
     const int most = strip < settings.height ? std::min(tile, strip) : tile;
     const Bytes row = width * need.band_pixel;

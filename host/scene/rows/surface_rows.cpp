@@ -110,7 +110,6 @@ SurfaceFeatures surface_features(const Scene& scene, const SceneFeatures& needs,
     SurfaceFeatures out;
     out.anisotropy = anisotropy;
     for (const Mesh& mesh : scene.meshes) {
-        if (is_blended(scene, mesh)) continue;
         add_mesh(out, scene, mesh, kept_uses(needs));
     }
     return out;

@@ -10,14 +10,13 @@ namespace {
 // multiprocessor, which then waits for memory: half of the time on an H200.
 constexpr std::string_view kFewerRegisters = "-cl-nv-maxrregcount=64";
 
-KernelProgram raster_program(const Gpu& gpu, const Tuning& tuning, SurfaceFeatures features) {
-    features.anisotropy = 1;
-    features.texture_uses &= 1u << USE_BASE_COLOR;
+KernelProgram raster_program(const Gpu& gpu, const Tuning& tuning,
+                             const SurfaceFeatures& features) {
     BuildOptions options;
     options.define("GROUP", tuning.raster_group).define("HAS_MASKS", features.masks);
     if (gpu.info.platform.starts_with("NVIDIA")) options.flag(kFewerRegisters);
     define_tiles(options, tuning);
-    define_surfaces(options, features, tuning);
+    define_surfaces(options, alpha_features(features), tuning);
     return build_program(
         gpu, tuning.raster_group == 1 ? "raster_triangles_by_item" : "raster_triangles_by_group",
         options);

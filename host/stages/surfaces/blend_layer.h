@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/gpu/flow.h"
+#include "host/gpu/kernel.h"
+#include "host/gpu/stage_info.h"
+#include "host/gpu/surface_flow.h"
+
+namespace kilolux {
+
+inline constexpr StageInfo kBlendLayerStage = {"blend_layer", StageGroup::picture};
+
+/// Lays the light of surfaces that blend over the light behind them, by their materials' alpha.
+class BlendLayer {
+ public:
+    BlendLayer(const Gpu& gpu, const Tuning& tuning, const SurfaceFeatures& features);
+
+    /// `layer` over `behind`, at the pixels of `ids`, which number the triangles of `scene`'s
+    /// instances. Enqueues only.
+    void enqueue(const DeviceArray<uint>& ids, const SurfaceBuffers& scene, const Radiance& layer,
+                 const Radiance& behind, StageTimer& timer);
+
+ private:
+    Tuning tuning_;
+    Kernel kernel_;
+};
+
+}  // namespace kilolux
