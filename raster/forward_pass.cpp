@@ -57,12 +57,10 @@ void load_radiance(const GBufferTargets& targets, std::span<const float> planes)
 
 ForwardPass::ForwardPass(const GpuScene& scene, const ForwardFeatures& features)
     : draw_list_(scene.scene()),
+      opaque_(scene, shaded_pass(features, false)),
       blended_(scene, shaded_pass(features, true)),
       light_buffers_(light_access(features)) {
-    if (features.opaque) opaque_.emplace(scene, shaded_pass(features, false));
-    if (features.opaque && features.clustered) {
-        depth_.emplace(scene, coverage_pass(Coverage::depth));
-    }
+    if (features.clustered) depth_.emplace(scene, coverage_pass(Coverage::depth));
     check_gl_errors("forward pass");
 }
 
@@ -115,7 +113,7 @@ void ForwardPass::draw_opaque(const Camera& camera, const CameraRow& row) {
         glDepthMask(GL_FALSE);
         glDepthFunc(GL_EQUAL);
     }
-    draw_in_parts(width, height, cost_, [&] { opaque_->draw(draws, row); });
+    draw_in_parts(width, height, cost_, [&] { opaque_.draw(draws, row); });
 }
 
 void ForwardPass::draw_transparent(const Camera& camera, const CameraRow& row) {
@@ -130,27 +128,6 @@ void ForwardPass::draw_transparent(const Camera& camera, const CameraRow& row) {
     glBlendEquation(GL_FUNC_ADD);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     draw_in_parts(width, height, cost_, [&] { blended_.draw(draws, row); });
-}
-
-void ForwardPass::draw_blended(const Camera& camera, const View& view,
-                               const GBufferTargets& gbuffer, std::span<const float> radiance,
-                               const ForwardLights& lights) {
-    const int width = gbuffer.width();
-    const int height = gbuffer.height();
-    prepare(width, height);
-    expect(lights);
-    light_buffers_.upload(lights, view);
-    {
-        const GlTimer::Scope timed(timer_);
-        load_radiance(*targets_, radiance);
-        glBlitNamedFramebuffer(gbuffer.framebuffer(), targets_->framebuffer(), 0, 0, width, height,
-                               0, 0, width, height, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
-        const RasterState state(targets_->framebuffer(), width, height);
-        light_buffers_.bind();
-        draw_transparent(camera, camera_row(camera, view, width, height));
-    }
-    is_whole_ = true;
-    check_gl_errors("blended surfaces");
 }
 
 std::vector<float> ForwardPass::read_radiance(uint stride) const {

@@ -20,8 +20,6 @@ namespace kilolux {
 struct ForwardFeatures : SceneFeatures {
     int shading = 0;         // SHADING_*, kernels/shared/evaluate_modes.h
     bool clustered = false;  // forward-plus: lights of the coarse cluster; else all of them
-    bool opaque =
-        true;  // false: only materials that blend, over a picture that another renderer made
     std::optional<LightAccess> light_access;  // none: the faster one here
 };
 
@@ -38,12 +36,6 @@ class ForwardPass {
     /// Draws the whole scene over `background` (float[3][height][stride]; empty: 0). Enqueues only.
     void draw(const Camera& camera, int width, int height, const ForwardLights& lights,
               std::span<const float> background = {});
-
-    /// Draws materials that blend over `radiance` (float[3][height][stride], red, green, blue) with
-    /// the depth of a G-buffer of the same size. `camera` sees the contents of the targets, which
-    /// may be a band of the picture; `view` is the picture's, with the band's rows. Enqueues only.
-    void draw_blended(const Camera& camera, const View& view, const GBufferTargets& gbuffer,
-                      std::span<const float> radiance, const ForwardLights& lights);
 
     /// The picture as float[3][height][stride]; waits for it. 0 past the width.
     std::vector<float> read_radiance(uint stride) const;
@@ -67,8 +59,8 @@ class ForwardPass {
     void draw_transparent(const Camera& camera, const CameraRow& row);
 
     DrawList draw_list_;
-    std::optional<ScenePrograms> depth_, opaque_;
-    ScenePrograms blended_;
+    std::optional<ScenePrograms> depth_;  // of forward-plus
+    ScenePrograms opaque_, blended_;
     ForwardLightBuffers light_buffers_;
     std::unique_ptr<GBufferTargets> targets_;
     GlTimer timer_;

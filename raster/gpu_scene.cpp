@@ -83,8 +83,7 @@ GpuScene::GpuScene(const Scene& scene, int anisotropy, GpuSceneUse use)
 
 MeshFeatures GpuScene::features() const {
     return [this](const Mesh& mesh) -> std::optional<SurfaceFeatures> {
-        const bool blends = material_of(scene_, mesh).alpha_mode == AlphaMode::blend;
-        if (use_ == GpuSceneUse::covered && !blends) return coverage_features(scene_, mesh);
+        if (use_ == GpuSceneUse::covered) return coverage_features(scene_, mesh);
         return mesh_features(scene_, mesh, ~0u, anisotropy_);
     };
 }

@@ -10,15 +10,14 @@
 
 namespace kilolux {
 
-/// The attributes that OpenGL needs of surfaces that do not blend.
+/// The attributes that OpenGL needs of surfaces.
 enum class GpuSceneUse {
     shaded,   // all attributes of materials: G-buffer planes, forward shading
     covered,  // coverage only: positions, and the inputs of alpha masks
 };
 
 /// A scene's rows and mips in the current context, the same as kernels read: see
-/// kernels/shared/surface_scene.h. Surfaces that blend have all attributes, the others those of the
-/// use.
+/// kernels/shared/surface_scene.h, with the attributes of the use.
 class GpuScene {
  public:
     /// The scene must outlive this; its materials and textures must stay as they are and its meshes

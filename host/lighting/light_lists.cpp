@@ -129,8 +129,4 @@ std::vector<ActiveCluster> LightLists::active_clusters(const ListedLights& lists
     return download(gpu_, lists.clusters.clusters, counts_.active_clusters);
 }
 
-HostCoarseLists LightLists::download_coarse(const ListedLights& lists) const {
-    return coarse_.download({lists.lights, lists.boxes, lists.coarse});
-}
-
 }  // namespace kilolux

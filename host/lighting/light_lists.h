@@ -57,8 +57,7 @@ class LightLists {
  public:
     LightLists(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
-    /// Also lists the lights of coarse clusters without pixels: for blended surfaces, which are in
-    /// no G-buffer.
+    /// Also lists the lights of coarse clusters without pixels: for tests.
     void list_everywhere() {
         everywhere_ = true;
         made_.reset();
@@ -87,9 +86,6 @@ class LightLists {
 
     /// The active clusters of the last lists that fitted. Blocks.
     std::vector<ActiveCluster> active_clusters(const ListedLights& lists) const;
-
-    /// The coarse lists on the host. Blocks.
-    HostCoarseLists download_coarse(const ListedLights& lists) const;
 
  private:
     ListedLights make(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,

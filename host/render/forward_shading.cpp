@@ -4,22 +4,17 @@
 #include "host/stages/shading/instruction_counts.h"
 
 namespace kilolux {
+namespace {
 
-StageWork forward_work(const StageCounts& c) {
-    return {.bytes_written = kRadianceBytes * c.pixels,
-            .instructions = shading_instructions(c),
-            .evaluations = full_evaluations(c)};
-}
-
-ForwardFeatures forward_features(const ScenePlan& plan, bool clustered, bool opaque) {
+ForwardFeatures forward_features(const ScenePlan& plan, bool clustered) {
     ForwardFeatures features;
     static_cast<SceneFeatures&>(features) = plan.kernels;
     features.shading = plan.kernels.shading;
     features.clustered = clustered;
-    features.opaque = opaque;
     return features;
 }
 
+// With `lists`, by coarse cluster. Neither is owned.
 ForwardLights forward_lights(const Sample& sample, float ambient, const HostCoarseLists* lists) {
     ForwardLights out;
     out.lights = sample.rows.local;
@@ -36,11 +31,18 @@ ForwardLights forward_lights(const Sample& sample, float ambient, const HostCoar
     return out;
 }
 
+}  // namespace
+
+StageWork forward_work(const StageCounts& c) {
+    return {.bytes_written = kRadianceBytes * c.pixels,
+            .instructions = shading_instructions(c),
+            .evaluations = full_evaluations(c)};
+}
+
 ForwardShading::ForwardShading(const RenderContext& context)
     : context_(context),
-      pass_(context.meshes(),
-            forward_features(context.plan, context.settings.renderer == RendererKind::forward_plus,
-                             true)),
+      pass_(context.meshes(), forward_features(context.plan, context.settings.renderer ==
+                                                                 RendererKind::forward_plus)),
       radiance_(context.gpu, kForwardStage) {}
 
 Radiance ForwardShading::target(const Sample& sample) {

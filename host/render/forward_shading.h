@@ -13,12 +13,6 @@ StageWork forward_work(const StageCounts& counts);
 inline constexpr StageInfo kForwardStage = {"forward", StageGroup::shading, forward_work};
 inline constexpr StageInfo kForwardPlusStage = {"forward_plus", StageGroup::shading, forward_work};
 
-/// The features that forward shading compiles in for a plan. `opaque`: see ForwardFeatures.
-ForwardFeatures forward_features(const ScenePlan& plan, bool clustered, bool opaque);
-
-/// The lights as forward passes take them; with `lists`, by coarse cluster. Neither is owned.
-ForwardLights forward_lights(const Sample& sample, float ambient, const HostCoarseLists* lists);
-
 /// Shading of `forward` and `forward-plus`: OpenGL shades where it draws. Forward takes every light
 /// for every fragment, in the scene's order; forward-plus draws depth first and takes the coarse
 /// lists that OpenCL makes.

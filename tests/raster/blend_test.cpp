@@ -54,26 +54,6 @@ TEST_F(BlendTest, BlendsBackToFront) {
     EXPECT_FLOAT_EQ(radiance[2 * plane], 2.0f * 0.75f * 0.5f);
 }
 
-TEST_F(BlendTest, BlendsOverAnotherRenderersPicture) {
-    const Scene scene = panes_scene();
-    const GpuScene gpu(scene);
-    GeometryPass geometry(gpu, {});
-    geometry.draw(panes_camera(), kWidth, kHeight);
-    const std::size_t plane = std::size_t{kStride} * kHeight;
-    std::vector<float> radiance(3 * plane, 0.0f);
-    std::fill(radiance.begin() + static_cast<std::ptrdiff_t>(2 * plane), radiance.end(), 2.0f);
-    ForwardFeatures features;
-    features.opaque = false;
-    ForwardPass pass(gpu, features);
-    pass.draw_blended(
-        panes_camera(),
-        view_of(panes_camera(), geometry.targets().width(), geometry.targets().height()),
-        geometry.targets(), radiance, {});
-    const std::vector<float> over = pass.read_radiance(kStride);
-    const std::vector<float> forward = draw(scene);
-    EXPECT_EQ(over, forward);
-}
-
 TEST_F(BlendTest, BlendedDoubleSidedShowsBothFaces) {
     Scene scene = panes_scene();
     scene.instances = {scene.instances[0], scene.instances[1]};
