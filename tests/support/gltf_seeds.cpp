@@ -109,6 +109,18 @@ void add_lights_and_cameras(GltfBuilder& file) {
     }
 }
 
+// A hidden node above a mesh, a light and a camera.
+void add_hidden_nodes(GltfBuilder& file) {
+    file.add_node({{"mesh", 0},
+                   {"camera", 0},
+                   {"translation", {0, 3, 0}},
+                   {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    json& nodes = file.root["nodes"];
+    file.root["scenes"][0]["nodes"].back() = nodes.size();
+    file.add("nodes", {{"children", {nodes.size() - 1}},
+                       {"extensions", {{"KHR_node_visibility", {{"visible", false}}}}}});
+}
+
 }  // namespace
 
 const Blob& webp_image() {
@@ -124,6 +136,7 @@ GltfBuilder every_feature_file() {
     add_materials(file);
     add_strip_and_fan(file);
     add_lights_and_cameras(file);
+    add_hidden_nodes(file);
     add_meshopt_quad(file, "TRIANGLES");
     add_draco_quad(file, draco_quad(kDracoEdgebreaker));
     add_fallback_buffer(file);
@@ -132,7 +145,8 @@ GltfBuilder every_feature_file() {
         "KHR_mesh_quantization",      "KHR_materials_emissive_strength",
         "KHR_materials_unlit",        "KHR_materials_ior",
         "KHR_materials_specular",     "EXT_meshopt_compression",
-        "KHR_draco_mesh_compression", "EXT_texture_webp"};
+        "KHR_draco_mesh_compression", "EXT_texture_webp",
+        "KHR_node_visibility"};
     file.root["extensionsUsed"] = file.root["extensionsRequired"];
     return file;
 }

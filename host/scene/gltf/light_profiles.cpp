@@ -89,7 +89,7 @@ void add_profile_lights(const GltfDocument& document, const PlacedNodes& nodes, 
     scene.aimed_profiles.clear();
     for (const std::size_t n : nodes.in_scene) {
         const auto* use = find_extension(document.model.nodes[n].extensions, kExtension);
-        if (use == nullptr) continue;
+        if (use == nullptr || !nodes.visible[n]) continue;
         const auto web = static_cast<std::size_t>(member_or(*use, "light", 0));
         SceneLight light = light_of(*use, scene.webs[web], nodes.world_from_node[n]);
         light.profile = static_cast<int>(scene.aimed_profiles.size());

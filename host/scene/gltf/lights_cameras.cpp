@@ -100,6 +100,7 @@ bool aim_light(SceneLight& light, const glm::dmat4& world_from_node) {
 std::vector<SceneLight> convert_lights(const GltfDocument& document, const PlacedNodes& nodes) {
     std::vector<SceneLight> lights;
     for (const std::size_t n : nodes.in_scene) {
+        if (!nodes.visible[n]) continue;
         for (std::size_t e = 0; e < kLightExtensions.size(); ++e) {
             const std::string extension(kLightExtensions[e]);
             const auto* use = find_extension(document.model.nodes[n].extensions, extension);

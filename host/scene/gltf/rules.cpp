@@ -108,6 +108,7 @@ Rules node_rules() {
         required(index(ies + "light", "/extensions/EXT_lights_ies/lights")),
         number(ies + "multiplier"),
         numbers(ies + "color", 3),
+        boolean("nodes[].extensions.KHR_node_visibility.visible"),
         required(object(instancing + ".attributes")),
         index(instancing + ".attributes{}", "/accessors"),
         required(array("skins[].joints")),

@@ -60,7 +60,7 @@ ShapePlan plan_shapes(const GltfDocument& document, const PlacedNodes& nodes) {
     std::map<std::tuple<int, int, std::vector<double>>, std::size_t> shared;
     for (const std::size_t n : nodes.in_scene) {
         const tinygltf::Node& node = document.model.nodes[n];
-        if (node.mesh < 0) continue;
+        if (node.mesh < 0 || !nodes.visible[n]) continue;
         const auto mesh = static_cast<std::size_t>(node.mesh);
         Placement placement{plan.shapes.size(), nodes.world_from_node[n]};
         MeshShape shape{mesh,
