@@ -176,6 +176,26 @@ void add_profile_lights(GltfBuilder& file) {
           {{"EXT_lights_ies", {{"light", 0}, {"multiplier", 2}, {"color", {0.5, 1, 0.25}}}}}}});
 }
 
+// A clip that drives a colour of material 0 and the visibility of node 1.
+void add_pointers(GltfBuilder& file) {
+    const std::string visible = "/nodes/1/extensions/KHR_node_visibility/visible";
+    file.root[json::json_pointer(visible)] = true;
+    const int input = file.add_floats("SCALAR", {0, 1});
+    const int colors = file.add_floats("VEC4", {0.5f, 1, 1, 0.75f, 0, 0, 0, 1});
+    const int shown = file.add_accessor({1, 0}, {kUnsignedByte, "SCALAR", 2, false, 0});
+    json clip = {{"samplers",
+                  {{{"input", input}, {"output", colors}},
+                   {{"input", input}, {"output", shown}, {"interpolation", "STEP"}}}}};
+    for (const std::string& pointer :
+         {std::string("/materials/0/extensions/KHR_materials_pbrSpecularGlossiness/diffuseFactor"),
+          visible}) {
+        const json extension = {{"KHR_animation_pointer", {{"pointer", pointer}}}};
+        clip["channels"].push_back({{"sampler", clip.value("channels", json::array()).size()},
+                                    {"target", {{"path", "pointer"}, {"extensions", extension}}}});
+    }
+    file.add("animations", clip);
+}
+
 std::filesystem::path write_with_files(GltfBuilder file, const std::filesystem::path& folder) {
     std::filesystem::create_directory(folder / "my maps");
     json& images = file.root["images"];
@@ -215,9 +235,11 @@ GltfBuilder converted_features_file() {
     file.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
         {"TRANSLATION", shifts}, {"ROTATION", turns}};
     add_profile_lights(file);
-    file.root["extensionsRequired"] = {"EXT_lights_ies", "KHR_materials_pbrSpecularGlossiness",
-                                       "KHR_materials_variants", "EXT_mesh_gpu_instancing",
-                                       "KHR_materials_transmission"};
+    add_pointers(file);
+    file.root["extensionsRequired"] = {
+        "EXT_lights_ies",          "KHR_materials_pbrSpecularGlossiness", "KHR_materials_variants",
+        "EXT_mesh_gpu_instancing", "KHR_materials_transmission",          "KHR_node_visibility",
+        "KHR_animation_pointer"};
     file.root["extensionsUsed"] = file.root["extensionsRequired"];
     return file;
 }

@@ -15,7 +15,7 @@ constexpr auto kRead = std::to_array<std::string_view>(
     {"KHR_texture_transform", "KHR_mesh_quantization", "KHR_materials_emissive_strength",
      "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness", "KHR_materials_variants",
      "EXT_mesh_gpu_instancing", "EXT_meshopt_compression", "KHR_draco_mesh_compression",
-     "EXT_texture_webp", "EXT_lights_ies", "KHR_node_visibility"});
+     "EXT_texture_webp", "EXT_lights_ies", "KHR_node_visibility", "KHR_animation_pointer"});
 
 // What no still picture shows: metadata, sound, physics, what a user may point at.
 constexpr auto kUnseen =
@@ -31,7 +31,6 @@ constexpr auto kUnseen =
                                      "OMI_physics_body",        "OMI_physics_shape"});
 
 constexpr std::array kLeftOut = {
-    LeftOutExtension{"KHR_animation_pointer", "what it animates stands still"},
     LeftOutExtension{"MSFT_lod", "the finest level is drawn"},
 };
 

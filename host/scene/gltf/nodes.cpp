@@ -17,8 +17,9 @@ constexpr std::size_t kNoNode = static_cast<std::size_t>(-1);
 NodePose rest_pose(const tinygltf::Node& node) {
     NodePose pose;
     pose.weights = node.weights;
-    if (const auto* visibility = find_extension(node.extensions, "KHR_node_visibility")) {
-        pose.visible = member_or(*visibility, "visible", true);
+    const auto* visibility = find_extension(node.extensions, "KHR_node_visibility");
+    if (visibility != nullptr && !member_or(*visibility, "visible", true)) {
+        pose.visibility = Visibility::hidden;
     }
     if (!node.matrix.empty()) {
         pose.has_matrix = true;
@@ -120,12 +121,13 @@ PlacedNodes place_nodes(const GltfDocument& document) {
     apply_animations(document, poses);
     PlacedNodes out;
     out.world_from_node.resize(nodes.size());
-    out.visible.resize(nodes.size());
+    out.visibility.resize(nodes.size());
     for (const std::size_t n : order) {
         const glm::dmat4 own = matrix_of(poses[n]);
         const bool is_root = parents[n] == kNoNode;
         out.world_from_node[n] = is_root ? own : out.world_from_node[parents[n]] * own;
-        out.visible[n] = poses[n].visible && (is_root || out.visible[parents[n]]);
+        out.visibility[n] = is_root ? poses[n].visibility
+                                    : std::min(poses[n].visibility, out.visibility[parents[n]]);
     }
     for (NodePose& pose : poses) out.weights.push_back(std::move(pose.weights));
     out.in_scene = walk(document, scene_roots(document, roots));

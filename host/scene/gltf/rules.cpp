@@ -251,6 +251,7 @@ Rules animation_rules() {
         required(object("animations[].channels[].target")),
         index("animations[].channels[].target.node", "/nodes"),
         required(text("animations[].channels[].target.path")),
+        required(text("animations[].channels[].target.extensions.KHR_animation_pointer.pointer")),
         required(index("animations[].samplers[].input", "/accessors")),
         required(index("animations[].samplers[].output", "/accessors")),
         choice("animations[].samplers[].interpolation", {"LINEAR", "STEP", "CUBICSPLINE"}),
