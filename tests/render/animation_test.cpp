@@ -187,6 +187,50 @@ TEST(Animation, MaterialsThatAClipDrivesReachEveryRenderer) {
     }
 }
 
+// Node 0 is the quad with the normal map; the last one the only spot light.
+TEST(Animation, NodesThatAreHiddenAtFirstShowLater) {
+    const auto file_with = [](bool visible, bool moves) {
+        GltfBuilder file = file_with_flap(FoldedBy::morph_target, 0.0f, false);
+        json& lights = file.root["extensions"]["KHR_lights_punctual"]["lights"];
+        lights.push_back({{"type", "spot"}, {"intensity", 50}, {"range", 20}});
+        const int lamp = file.add_node({{"translation", {0, 0, 2}},
+                                        {"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}});
+        const int times = file.add_floats("SCALAR", {0, 1});
+        const int output = file.add_floats("SCALAR", {0, 1});
+        json clip = {
+            {"samplers", {{{"input", times}, {"output", output}, {"interpolation", "STEP"}}}}};
+        for (const int node : {0, lamp}) {
+            const std::string pointer =
+                "/nodes/" + std::to_string(node) + "/extensions/KHR_node_visibility/visible";
+            file.root[json::json_pointer(pointer)] = visible;
+            const json extension = {{"KHR_animation_pointer", {{"pointer", pointer}}}};
+            clip["channels"].push_back(
+                {{"sampler", 0}, {"target", {{"path", "pointer"}, {"extensions", extension}}}});
+        }
+        if (moves) file.add("animations", clip);
+        return file;
+    };
+    const TempFolder folder;
+    const auto path = folder.path() / "shown.glb";
+    write_file(path, file_with(false, true).glb());
+    AnimatedScene moving(path, {});
+    const Scene stills[] = {load(file_with(false, false)), load(file_with(true, false))};
+    const Camera camera = frame_box(bounds(stills[1]));
+    for (const RendererKind kind : {RendererKind::deferred, RendererKind::forward}) {
+        RenderSettings settings = small_settings(64, 48, 0);
+        settings.renderer = kind;
+        if (kind == RendererKind::deferred) settings.shadows = Shadows::exact;
+        moving.set_time(0.0);
+        Renderer renderer(moving.scene(), settings);
+        for (const int second : {0, 1, 0}) {
+            moving.set_time(second);
+            EXPECT_EQ(renderer.render(camera, 0.0).radiance,
+                      Renderer(stills[second], settings).render(camera, 0.0).radiance)
+                << static_cast<int>(kind) << " at " << second;
+        }
+    }
+}
+
 // Rows of vertices have the room that they began with.
 TEST(Animation, RefusesAnotherNumberOfVertices) {
     for (const RendererKind kind : {RendererKind::deferred, RendererKind::forward}) {

@@ -157,7 +157,7 @@ void assign(NodePose& pose, const std::string& path, Values values) {
     if (path == "weights") {
         pose.weights = std::move(values);
     } else if (path == kVisibilityPath) {
-        pose.visibility = values[0] != 0.0 ? Visibility::visible : Visibility::hidden_now;
+        pose.visibility = values[0] != 0.0 ? NodeVisibility::visible : NodeVisibility::hidden_now;
     } else if (path == "rotation") {
         pose.rotation = quat_of(values);
     } else {

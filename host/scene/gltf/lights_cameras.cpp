@@ -102,7 +102,7 @@ bool aim_light(SceneLight& light, const glm::dmat4& world_from_node) {
 std::vector<SceneLight> convert_lights(const GltfDocument& document, const PlacedNodes& nodes) {
     std::vector<SceneLight> lights;
     for (const std::size_t n : nodes.in_scene) {
-        if (nodes.visibility[n] == Visibility::hidden) continue;
+        if (nodes.visibility[n] == NodeVisibility::hidden) continue;
         for (std::size_t e = 0; e < kLightExtensions.size(); ++e) {
             const std::string extension(kLightExtensions[e]);
             const auto* use = find_extension(document.model.nodes[n].extensions, extension);
@@ -111,7 +111,7 @@ std::vector<SceneLight> convert_lights(const GltfDocument& document, const Place
             lights.push_back(
                 convert_light(document.lights[e][light], extension, nodes.world_from_node[n]));
             // A light that is hidden for a while stays, dark, so that kernels for its kind do.
-            if (nodes.visibility[n] != Visibility::visible) lights.back().intensity = {};
+            if (nodes.visibility[n] != NodeVisibility::visible) lights.back().intensity = {};
         }
     }
     return lights;

@@ -19,7 +19,7 @@ NodePose rest_pose(const tinygltf::Node& node) {
     pose.weights = node.weights;
     const auto* visibility = find_extension(node.extensions, "KHR_node_visibility");
     if (visibility != nullptr && !member_or(*visibility, "visible", true)) {
-        pose.visibility = Visibility::hidden;
+        pose.visibility = NodeVisibility::hidden;
     }
     if (!node.matrix.empty()) {
         pose.has_matrix = true;

@@ -64,7 +64,7 @@ ShapePlan plan_shapes(const GltfDocument& document, const PlacedNodes& nodes) {
     std::map<std::tuple<int, int, std::vector<double>>, std::size_t> shared;
     for (const std::size_t n : nodes.in_scene) {
         const tinygltf::Node& node = document.model.nodes[n];
-        if (node.mesh < 0 || nodes.visibility[n] == Visibility::hidden) continue;
+        if (node.mesh < 0 || nodes.visibility[n] == NodeVisibility::hidden) continue;
         const auto mesh = static_cast<std::size_t>(node.mesh);
         Placement placement{plan.shapes.size(), nodes.world_from_node[n]};
         MeshShape shape{mesh,
@@ -86,7 +86,8 @@ ShapePlan plan_shapes(const GltfDocument& document, const PlacedNodes& nodes) {
             shape.metres_per_unit = mean_scale(placement.world_from_object);
             plan.shapes.push_back(std::move(shape));
         }
-        add_placements(document, n, placement, nodes.visibility[n] != Visibility::visible, plan);
+        add_placements(document, n, placement, nodes.visibility[n] != NodeVisibility::visible,
+                       plan);
     }
     return plan;
 }
