@@ -251,6 +251,7 @@ std::vector<GltfBuilder> gltf_seeds() {
             triangle_file(),
             meshopt_quad("TRIANGLES"),
             meshopt_quad("INDICES"),
+            khr_meshopt_quad(),
             draco_file(draco_quad(kDracoEdgebreaker)),
             draco_file(draco_quad(kDracoSequential))};
 }

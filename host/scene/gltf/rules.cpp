@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "host/scene/gltf/mesh/meshopt.h"
 #include "host/scene/lights/light_kinds.h"
 #include "host/scene/material_table.h"
 
@@ -50,23 +51,30 @@ GltfRule where_type(std::string type, GltfRule rule) {
 }
 
 Rules buffer_rules() {
-    const std::string meshopt = "bufferViews[].extensions.EXT_meshopt_compression.";
-    return {
+    Rules rules = {
         required(integer("buffers[].byteLength", 0, kMaxBytes)),
         text("buffers[].uri"),
-        boolean("buffers[].extensions.EXT_meshopt_compression.fallback"),
         required(index("bufferViews[].buffer", "/buffers")),
         integer("bufferViews[].byteOffset", 0, kMaxBytes),
         required(integer("bufferViews[].byteLength", 0, kMaxBytes)),
         multiple_of(4, integer("bufferViews[].byteStride", 0, 252)),
-        required(index(meshopt + "buffer", "/buffers")),
-        integer(meshopt + "byteOffset", 0, kMaxInt),
-        required(integer(meshopt + "byteLength", 0, kMaxInt)),
-        required(integer(meshopt + "byteStride", 1, 256)),
-        required(integer(meshopt + "count", 0, kMaxInt)),
-        required(choice(meshopt + "mode", {"ATTRIBUTES", "TRIANGLES", "INDICES"})),
-        choice(meshopt + "filter", {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"}),
     };
+    for (const std::string_view name : kMeshoptExtensions) {
+        const std::string extension = ".extensions." + std::string(name) + ".";
+        const std::string view = "bufferViews[]" + extension;
+        const Rules more = {
+            boolean("buffers[]" + extension + "fallback"),
+            required(index(view + "buffer", "/buffers")),
+            integer(view + "byteOffset", 0, kMaxInt),
+            required(integer(view + "byteLength", 0, kMaxInt)),
+            required(integer(view + "byteStride", 1, 256)),
+            required(integer(view + "count", 0, kMaxInt)),
+            required(choice(view + "mode", {"ATTRIBUTES", "TRIANGLES", "INDICES"})),
+            choice(view + "filter", {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"}),
+        };
+        rules.insert(rules.end(), more.begin(), more.end());
+    }
+    return rules;
 }
 
 Rules accessor_rules() {
