@@ -181,7 +181,8 @@ void add_pointers(GltfBuilder& file) {
     const std::string visible = "/nodes/1/extensions/KHR_node_visibility/visible";
     file.root[json::json_pointer(visible)] = true;
     const int input = file.add_floats("SCALAR", {0, 1});
-    const int colors = file.add_floats("VEC4", {0.5f, 1, 1, 0.75f, 0, 0, 0, 1});
+    const int colors = file.add_accessor(bytes_of<double>({0.5, 1, 1, 0.75, 0, 0, 0, 1}),
+                                         {kDouble, "VEC4", 2, false, 0});
     const int shown = file.add_accessor({1, 0}, {kUnsignedByte, "SCALAR", 2, false, 0});
     json clip = {{"samplers",
                   {{{"input", input}, {"output", colors}},
@@ -236,10 +237,14 @@ GltfBuilder converted_features_file() {
         {"TRANSLATION", shifts}, {"ROTATION", turns}};
     add_profile_lights(file);
     add_pointers(file);
-    file.root["extensionsRequired"] = {
-        "EXT_lights_ies",          "KHR_materials_pbrSpecularGlossiness", "KHR_materials_variants",
-        "EXT_mesh_gpu_instancing", "KHR_materials_transmission",          "KHR_node_visibility",
-        "KHR_animation_pointer"};
+    file.root["extensionsRequired"] = {"EXT_lights_ies",
+                                       "KHR_materials_pbrSpecularGlossiness",
+                                       "KHR_materials_variants",
+                                       "EXT_mesh_gpu_instancing",
+                                       "KHR_materials_transmission",
+                                       "KHR_node_visibility",
+                                       "KHR_animation_pointer",
+                                       "KHR_accessor_float64"};
     file.root["extensionsUsed"] = file.root["extensionsRequired"];
     return file;
 }

@@ -94,8 +94,8 @@ Values read_key(const Track& track, std::size_t key, std::size_t slot) {
     const std::size_t slots = track.interpolation == Interpolation::cubic ? 3 : 1;
     Values values;
     for (std::size_t i = 0; i < track.per_key; ++i) {
-        const glm::vec4 element =
-            read_vector(track.output, (key * slots + slot) * track.per_key + i);
+        const glm::dvec4 element =
+            read_exact(track.output, (key * slots + slot) * track.per_key + i);
         for (std::size_t c = 0; c < track.output.components; ++c) {
             values.push_back(element[static_cast<glm::length_t>(c)]);
         }

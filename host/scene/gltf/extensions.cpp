@@ -15,8 +15,8 @@ constexpr auto kRead = std::to_array<std::string_view>(
     {"KHR_texture_transform", "KHR_mesh_quantization", "KHR_materials_emissive_strength",
      "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness", "KHR_materials_variants",
      "EXT_mesh_gpu_instancing", "EXT_meshopt_compression", "KHR_draco_mesh_compression",
-     "EXT_texture_webp", "EXT_lights_ies", "KHR_meshopt_compression", "KHR_node_visibility",
-     "KHR_animation_pointer"});
+     "EXT_texture_webp", "EXT_lights_ies", "KHR_meshopt_compression", "KHR_accessor_float64",
+     "KHR_node_visibility", "KHR_animation_pointer"});
 
 // What no still picture shows: metadata, sound, physics, what a user may point at.
 constexpr auto kUnseen =

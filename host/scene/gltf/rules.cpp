@@ -81,8 +81,8 @@ Rules accessor_rules() {
     return {
         index("accessors[].bufferView", "/bufferViews"),
         integer("accessors[].byteOffset", 0, kMaxBytes),
-        required(
-            choice("accessors[].componentType", {"5120", "5121", "5122", "5123", "5125", "5126"})),
+        required(choice("accessors[].componentType",
+                        {"5120", "5121", "5122", "5123", "5125", "5126", "5130"})),
         required(integer("accessors[].count", 0, kMaxCount)),
         required(
             choice("accessors[].type", {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"})),
