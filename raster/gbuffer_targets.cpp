@@ -70,6 +70,12 @@ TargetPlan plan_targets(const GBufferNeeds& needs) {
         }
         slots += fmt::format("{}{}u", plane == 0 ? "" : ", ", slot);
     }
+    if (plan.color_formats.size() > kMostTargets) {
+        throw UsageError(fmt::format(
+            "--geometry planes: {} planes of --gbuffer {} for this scene, OpenGL draws to {} at "
+            "once; take --geometry ids",
+            planes, gbuffer_layout_name(needs.layout), kMostTargets * room));
+    }
     plan.defines = {{"ATTACHMENTS", fmt::to_string(plan.color_formats.size())},
                     {"PLANE_SLOTS", fmt::format("uint[PLANE_COUNT]({})", slots)}};
     return plan;

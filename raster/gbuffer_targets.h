@@ -29,7 +29,7 @@ struct TargetPlan {
 };
 
 /// The attachments that the geometry pass draws to for these needs. Depth is always
-/// DEPTH_COMPONENT32F.
+/// DEPTH_COMPONENT32F. Throws UsageError where they need more attachments than OpenGL has.
 TargetPlan plan_targets(const GBufferNeeds& needs);
 
 /// The G-buffer's textures in one framebuffer.

@@ -18,6 +18,7 @@ constexpr SceneFeature kTable[] = {
     {"", &F::material, "HAS_MATERIAL"},
     {"occlusion", &F::occlusion, "HAS_OCCLUSION", true},
     {"specular", &F::specular, "HAS_SPECULAR", true},
+    {"clearcoat", &F::clearcoat, "HAS_CLEARCOAT", true},
     {"unlit", &F::unlit_materials, nullptr, true},
     {"", &F::unlit, "HAS_UNLIT"},
     {"", &F::gloss},

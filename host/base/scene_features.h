@@ -22,6 +22,7 @@ struct SceneFeatures {
     bool material = false;         // metallic or emissive: the G-buffer has a plane for them
     bool occlusion = false;        // an occlusion texture, and ambient light that it darkens
     bool specular = false;         // dielectrics that reflect otherwise than 4 %
+    bool clearcoat = false;        // surfaces with a clear coat
     bool unlit = false;            // unlit surfaces among glossy ones: a roughness of 0 marks them
     bool unlit_materials = false;  // unlit surfaces at all
     bool gloss = false;            // roughness and metal are read: not by lambert alone

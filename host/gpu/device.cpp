@@ -182,12 +182,16 @@ Gpu::Gpu(const cl::Device& chosen, int lane_width)
     if (lane_width > 0) info.lane_width = lane_width;
 }
 
-std::future<Gpu> open_gpu_async(std::string choice) {
+std::future<Gpu> open_gpu_async(std::string choice, std::function<void(const Gpu&)> then) {
     prepare_pocl();
     // Drivers and the caller would each find room that the other takes.
     const bool waits = has_address_space_limit();
     return std::async(waits ? std::launch::deferred : std::launch::async,
-                      [device = std::move(choice)] { return Gpu(choose_device(device)); });
+                      [device = std::move(choice), then = std::move(then)] {
+                          Gpu gpu(choose_device(device));
+                          then(gpu);
+                          return gpu;
+                      });
 }
 
 Gpu::Gpu(cl::Context existing_context, cl::CommandQueue existing_queue, int lane_width)

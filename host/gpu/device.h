@@ -3,6 +3,7 @@
 
 #include <CL/opencl.hpp>
 #include <cstdint>
+#include <functional>
 #include <future>
 #include <memory>
 #include <string>
@@ -60,9 +61,9 @@ struct Gpu {
     bool checks_arguments = false;  // kernels compare their arguments by name and type: for tests
 };
 
-/// Opens choose_device(choice) in a thread of its own, with a limited address space in get(); get()
-/// throws what choose_device() and Gpu() throw. Environment variables for PoCL are set before this
-/// function returns.
-std::future<Gpu> open_gpu_async(std::string choice);
+/// Opens choose_device(choice) and calls `then` with it, in a thread of its own; with a limited
+/// address space in get(). get() throws what choose_device(), Gpu() and `then` throw. Environment
+/// variables for PoCL are set before this function returns.
+std::future<Gpu> open_gpu_async(std::string choice, std::function<void(const Gpu&)> then);
 
 }  // namespace kilolux

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "kernels/shared/cluster_grid.h"
 
@@ -36,10 +37,11 @@ WorkSize fit_groups(const WorkSize& size, std::size_t largest, std::string_view 
 }
 
 WorkSize Kernel::pixel_items(const View& view, int rows) const {
-    const std::size_t width = std::min(FINE_TILE / lanes_, std::bit_floor(largest_group_));
-    const std::size_t most = std::bit_floor(std::max<std::size_t>(largest_group_ / width, 1));
+    const std::size_t largest = made().largest_group;
+    const std::size_t width = std::min(FINE_TILE / lanes(), std::bit_floor(largest));
+    const std::size_t most = std::bit_floor(std::max<std::size_t>(largest / width, 1));
     const std::size_t height = std::min(static_cast<std::size_t>(rows), most);
-    return {cl::NDRange(view.stride / lanes_, round_up(view.height, height)),
+    return {cl::NDRange(view.stride / lanes(), round_up(view.height, height)),
             cl::NDRange(width, height)};
 }
 
@@ -49,23 +51,29 @@ WorkSize Kernel::block_items(const View& view, int rows) const {
     return pixel_items(tiles, rows);
 }
 
-Kernel::Kernel(const Gpu& gpu, const KernelProgram& program, std::string_view stage,
-               const char* name)
+Kernel::Kernel(const Gpu& gpu, KernelProgram program, std::string_view stage, const char* name)
     : queue_(gpu.queue),
-      kernel_(in_stage(stage, [&] { return cl::Kernel(program, name); })),
+      device_(gpu.device),
+      program_(std::move(program)),
       stage_(stage),
-      lanes_(static_cast<std::size_t>(program.lanes)),
-      largest_group_(in_stage(
-          stage, [&] { return kernel_.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(gpu.device); })),
-      tables_(in_stage(stage, [&] { return device_tables(gpu); })) {
-    if (gpu.checks_arguments) {
-        parameters_ = in_stage(stage, [&] { return parameters_of(kernel_); });
-    }
+      name_(name),
+      checks_arguments_(gpu.checks_arguments),
+      tables_(in_stage(stage, [&] { return device_tables(gpu); })) {}
+
+Kernel::Made& Kernel::made() const {
+    if (made_) return *made_;
+    in_stage(stage_, [&] {
+        const cl::Kernel kernel(program_.built(), name_);
+        const auto largest = kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device_);
+        made_ = {kernel, largest, {}, {}};
+        if (checks_arguments_) made_->parameters = parameters_of(kernel);
+    });
+    return *made_;
 }
 
 void Kernel::compare_argument(cl_uint index, std::string_view name, std::string_view type,
                               bool is_memory) const {
-    const KernelParameter& parameter = parameters_.at(index);
+    const KernelParameter& parameter = made().parameters.at(index);
     if (accepts(parameter, name, type, is_memory)) return;
     throw Error(stage_ + ": argument " + std::to_string(index) + " is '" + std::string(name) +
                 "' of type " + std::string(type) + (is_memory ? "*" : "") +
@@ -75,16 +83,17 @@ void Kernel::compare_argument(cl_uint index, std::string_view name, std::string_
 bool Kernel::is_first_launch(const cl::NDRange& group) {
     std::array<std::size_t, 3> size = {1, 1, 1};
     std::copy_n(group.get(), group.dimensions(), size.begin());
-    if (std::ranges::find(launched_, size) != launched_.end()) return false;
-    launched_.push_back(size);
+    auto& launched = made().launched;
+    if (std::ranges::find(launched, size) != launched.end()) return false;
+    launched.push_back(size);
     return true;
 }
 
 cl::Event Kernel::launch(const WorkSize& size) {
-    const WorkSize fitting = fit_groups(size, largest_group_, stage_);
+    const WorkSize fitting = fit_groups(size, made().largest_group, stage_);
     cl::Event event;
-    queue_.enqueueNDRangeKernel(kernel_, cl::NullRange, fitting.global, fitting.local, nullptr,
-                                &event);
+    queue_.enqueueNDRangeKernel(made().kernel, cl::NullRange, fitting.global, fitting.local,
+                                nullptr, &event);
     return event;
 }
 

@@ -47,17 +47,18 @@ concept ArgumentBundle = requires(const T& value) {
     value.each([](const auto&...) {});
 };
 
-/// One kernel of a stage, made once. A launch sets all arguments in their order.
+/// One kernel of a stage. A launch sets all arguments in their order. The first call that needs the
+/// kernel waits for its program, and throws as that does.
 class Kernel {
  public:
     /// `stage` names the launches in times and error messages. Throws Error with it.
-    Kernel(const Gpu& gpu, const KernelProgram& program, std::string_view stage, const char* name);
+    Kernel(const Gpu& gpu, KernelProgram program, std::string_view stage, const char* name);
 
     /// Lanes of the kernel's FV.
-    std::size_t lanes() const { return lanes_; }
+    std::size_t lanes() const { return static_cast<std::size_t>(program_.lanes); }
     /// A work-item for every vector of `count` elements, in groups of `group`.
     WorkSize vector_items(std::size_t count, int group) const {
-        return items((count + lanes_ - 1) / lanes_, group);
+        return items((count + lanes() - 1) / lanes(), group);
     }
     /// A work-item for every vector of pixels of a row. A work-group is as wide as a fine tile and
     /// `rows` high, or as many as the device allows this kernel.
@@ -71,7 +72,7 @@ class Kernel {
     template <typename... Arguments>
     void enqueue(const WorkSize& size, StageTimer& timer, const Arguments&... arguments) {
         in_stage(stage_, [&] {
-            Setter set{*this};
+            Setter set{*this, made()};
             (set(arguments), ...);
             const bool is_first = is_first_launch(size.local);
             timer.record(stage_, launch(size), is_first);
@@ -79,9 +80,17 @@ class Kernel {
     }
 
  private:
+    // What needs the program.
+    struct Made {
+        cl::Kernel kernel;
+        std::size_t largest_group;                         // work-items that the device allows
+        std::vector<KernelParameter> parameters;           // with Gpu::checks_arguments
+        std::vector<std::array<std::size_t, 3>> launched;  // sizes of groups
+    };
     // Sets arguments one after the other.
     struct Setter {
-        Kernel& kernel;
+        const Kernel& kernel;
+        Made& made;
         cl_uint index = 0;
 
         void operator()(const ArgumentBundle auto& bundle) { bundle.each(*this); }
@@ -98,12 +107,12 @@ class Kernel {
             } else {
                 kernel.check_argument(index, name, kKernelType<T>, false);
             }
-            kernel.kernel_.setArg(index++, value);
+            made.kernel.setArg(index++, value);
         }
         template <typename T>
         void operator()(std::string_view name, const DeviceArray<T>& array) {
             kernel.check_argument(index, name, kKernelType<T>, true);
-            kernel.kernel_.setArg(index++, array.buffer());
+            made.kernel.setArg(index++, array.buffer());
         }
         template <typename T>
         void operator()(std::string_view name, const std::optional<DeviceArray<T>>& array) {
@@ -120,21 +129,23 @@ class Kernel {
 
     void check_argument(cl_uint index, std::string_view name, std::string_view type,
                         bool is_memory) const {
-        if (!parameters_.empty()) compare_argument(index, name, type, is_memory);
+        if (!made().parameters.empty()) compare_argument(index, name, type, is_memory);
     }
     void compare_argument(cl_uint index, std::string_view name, std::string_view type,
                           bool is_memory) const;
     cl::Event launch(const WorkSize& size);
     bool is_first_launch(const cl::NDRange& group);
 
+    Made& made() const;
+
     cl::CommandQueue queue_;
-    cl::Kernel kernel_;
+    cl::Device device_;
+    KernelProgram program_;
     std::string stage_;
-    std::size_t lanes_;
-    std::size_t largest_group_;  // work-items that the device allows in a group
+    const char* name_;
+    bool checks_arguments_;
     std::shared_ptr<const DeviceTables> tables_;
-    std::vector<KernelParameter> parameters_;           // with Gpu::checks_arguments
-    std::vector<std::array<std::size_t, 3>> launched_;  // sizes of groups
+    mutable std::optional<Made> made_;
 };
 
 }  // namespace kilolux

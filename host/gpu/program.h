@@ -2,8 +2,14 @@
 #pragma once
 
 #include <CL/opencl.hpp>
+#include <atomic>
 #include <chrono>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <future>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -39,65 +45,90 @@ inline constexpr std::string_view kKernelPrologue =
     "#endif\n"
     "#endif\n";
 
-/// A built program, and the lanes that its kernels' FV has.
-struct KernelProgram : cl::Program {
-    int lanes = 1;
-};
-
 /// When the host built a program.
 struct BuildSpan {
     std::chrono::steady_clock::time_point start, end;
+};
+
+/// A program that is built once, by the first thread that comes to it. Others wait.
+class ProgramBuild {
+ public:
+    using Make = std::function<cl::Program()>;
+    explicit ProgramBuild(Make make) : make_(std::move(make)) {}
+
+    /// Throws what `make` threw.
+    const cl::Program& program();
+    /// Whether it was built and failed.
+    bool has_failed() const { return failed_; }
+    /// Waits for the thread that builds. If there is none, nobody will build: program() throws.
+    void abandon();
+
+ private:
+    std::once_flag once_;
+    Make make_;
+    cl::Program program_;
+    std::exception_ptr error_;
+    std::atomic<bool> failed_ = false;
+};
+
+/// A program, built or being built, and the lanes that its kernels' FV has.
+struct KernelProgram {
+    std::shared_ptr<ProgramBuild> build;
+    int lanes = 1;
+
+    /// Waits until it is built. Throws as build_program() says.
+    const cl::Program& built() const { return build->program(); }
 };
 
 /// Building for longer is worth a word to the user.
 inline constexpr double kLongBuildSeconds = 1.0;
 
 /// What copies of a Gpu share: the programs of one context by options and text, and the tables that
-/// kernels read. They live as long as a Gpu that shares them.
+/// kernels read. They live as long as a Gpu that shares them. Other threads build programs
+/// meanwhile; the destructor waits for those that they have begun.
 class ProgramCache {
  public:
-    /// The program of `key`; made by `build` if it is new.
-    template <typename Build>
-    KernelProgram find(const std::string& key, const Build& build) {
-        const std::scoped_lock lock(mutex_);
-        auto found = programs_.find(key);
-        if (found == programs_.end()) found = programs_.emplace(key, build()).first;
-        return found->second;
-    }
-    /// Adds the time of a build, or of a first launch, before which drivers compile. Returns
-    /// whether all together then are long for the first time: the user waits.
-    bool add_build_time(double seconds) {
-        const std::scoped_lock lock(times_);
-        const double before = std::exchange(build_seconds_, build_seconds_ + seconds);
-        return before < kLongBuildSeconds && build_seconds_ >= kLongBuildSeconds;
-    }
-    double build_seconds() const {
-        const std::scoped_lock lock(times_);
-        return build_seconds_;
-    }
-    /// Adds the time in which a program was built.
-    void add_build(const BuildSpan& span) {
-        const std::scoped_lock lock(times_);
-        builds_.push_back(span);
-    }
+    ~ProgramCache();
+
+    /// The program of `key`; `make` begins in another thread if it is new or has failed.
+    std::shared_ptr<ProgramBuild> find(const std::string& key, ProgramBuild::Make make);
+
+    /// Called around each build. `end_build` returns whether builds and first launches, before
+    /// which drivers compile, are long together for the first time: the user waits.
+    void begin_build();
+    bool end_build(std::chrono::steady_clock::time_point start);
+    /// Adds the time before first launches. Returns as end_build() does.
+    bool add_build_time(double seconds);
+    /// For how long programs were built; times of several threads count once.
+    double build_seconds() const;
     /// The builds since the last call.
-    std::vector<BuildSpan> take_builds() {
-        const std::scoped_lock lock(times_);
-        return std::exchange(builds_, {});
-    }
+    std::vector<BuildSpan> take_builds();
+
     /// The tables; made by `make` if there are none yet.
     template <typename Make>
     std::shared_ptr<const DeviceTables> tables(const Make& make) {
-        const std::scoped_lock lock(mutex_);
+        const std::scoped_lock lock(tables_mutex_);
         if (!tables_) tables_ = std::make_shared<const DeviceTables>(make());
         return tables_;
     }
 
  private:
-    std::mutex mutex_;
-    std::map<std::string, KernelProgram> programs_;
+    void start_builder();
+    std::shared_ptr<ProgramBuild> next_waiting();
+    bool add_seconds(double seconds);
+
+    std::mutex mutex_;  // of those that follow
+    std::map<std::string, std::shared_ptr<ProgramBuild>> programs_;
+    std::deque<std::shared_ptr<ProgramBuild>> waiting_;
+    std::vector<std::future<void>> builders_;
+    int working_ = 0;  // builders
+
+    std::mutex tables_mutex_;
     std::shared_ptr<const DeviceTables> tables_;
-    mutable std::mutex times_;  // of those that follow; a build holds the other mutex for long
+
+    mutable std::mutex times_;                              // of those that follow
+    int building_ = 0;                                      // threads
+    std::chrono::steady_clock::time_point building_since_;  // not yet in build_seconds_
     double build_seconds_ = 0.0;
     std::vector<BuildSpan> builds_;
 };
@@ -107,9 +138,10 @@ class ProgramCache {
 bool takes_our_declarations(const DeviceInfo& device);
 
 /// The program of one stage, `kernels/<stem>.cl`, built for the device with its lane width as VW.
-/// Copies of a Gpu share programs: the same text and options are built once.
-/// Throws Error with file, device, options and the compiler's log; Interrupted, before it builds,
-/// once a signal has asked for the end.
+/// Copies of a Gpu share programs: the same text and options are built once. Another thread builds
+/// it meanwhile. Throws Error where the text cannot be read. The program throws, when it is first
+/// used, Error with file, device, options and the compiler's log; Interrupted once a signal has
+/// asked for the end before it was built.
 KernelProgram build_program(const Gpu& gpu, std::string_view stem,
                             const BuildOptions& options = {});
 

@@ -38,6 +38,12 @@ inline constexpr std::array<MaterialMap, USE_COUNT> kMaterialMaps = {{
      false, "a", &SceneFeatures::specular},
     {USE_SPECULAR_COLOR, "extensions.KHR_materials_specular.specularColorTexture",
      &Material::specular_color_texture, true, "rgb", &SceneFeatures::specular},
+    {USE_CLEARCOAT, "extensions.KHR_materials_clearcoat.clearcoatTexture",
+     &Material::clearcoat_texture, false, "r", &SceneFeatures::clearcoat},
+    {USE_CLEARCOAT_ROUGHNESS, "extensions.KHR_materials_clearcoat.clearcoatRoughnessTexture",
+     &Material::clearcoat_roughness_texture, false, "g", &SceneFeatures::clearcoat},
+    {USE_CLEARCOAT_NORMAL, "extensions.KHR_materials_clearcoat.clearcoatNormalTexture",
+     &Material::clearcoat_normal_texture, false, "rgb", &SceneFeatures::clearcoat},
 }};
 
 static_assert([] {
@@ -74,7 +80,23 @@ inline constexpr auto kMaterialFactors = std::to_array<MaterialFactor>({
      &MaterialRow::specular, 3},
     {"extensions.KHR_materials_specular.specularColorFactor", &Material::specular_color, nullptr, 0,
      FactorRange::positive},
+    {"extensions.KHR_materials_clearcoat.clearcoatFactor", &Material::clearcoat,
+     &MaterialRow::clearcoat, 0},
+    {"extensions.KHR_materials_clearcoat.clearcoatRoughnessFactor", &Material::clearcoat_roughness,
+     &MaterialRow::clearcoat, 1},
+    {"extensions.KHR_materials_clearcoat.clearcoatNormalTexture.scale",
+     &Material::clearcoat_normal_scale, &MaterialRow::clearcoat, 2, FactorRange::finite},
 });
+
+/// The map by whose texture coordinates tangents are made: the first one in tangent space. Not
+/// present where the material needs no tangents.
+inline const TextureUse& tangent_map(const Material& material) {
+    for (const MaterialMap& map : kMaterialMaps) {
+        const TextureUse& use = material.*map.member;
+        if ((TANGENT_USES & (1u << map.use)) != 0 && use.present()) return use;
+    }
+    return material.normal_texture;
+}
 
 /// Numbers of a factor: 1, 3 or 4.
 constexpr std::size_t factor_length(const MaterialFactor& factor) {
@@ -109,7 +131,6 @@ inline constexpr auto kLeftOutMaterialExtensions = std::to_array<LeftOutExtensio
     {"KHR_materials_volume_scatter", "no light scatters below surfaces"},
     {"KHR_materials_diffuse_transmission", "leaves and paper let no light through"},
     {"KHR_materials_dispersion", "glass shows no rainbow"},
-    {"KHR_materials_clearcoat", "coats have no highlight of their own"},
     {"KHR_materials_sheen", "cloth has no sheen"},
     {"KHR_materials_iridescence", "thin films show no colours"},
     {"KHR_materials_anisotropy", "brushed metal has round highlights"},

@@ -70,7 +70,13 @@ struct Material {
     float specular = 1.0f;        // KHR_materials_specular
     TextureUse specular_texture;  // linear; A
     glm::vec3 specular_color{1.0f};
-    TextureUse specular_color_texture;  // sRGB
+    TextureUse specular_color_texture;       // sRGB
+    float clearcoat = 0.0f;                  // KHR_materials_clearcoat
+    TextureUse clearcoat_texture;            // linear; R
+    float clearcoat_roughness = 0.0f;        // perceptual
+    TextureUse clearcoat_roughness_texture;  // linear; G
+    TextureUse clearcoat_normal_texture;     // linear
+    float clearcoat_normal_scale = 1.0f;
     bool operator==(const Material&) const = default;
 };
 
@@ -91,7 +97,7 @@ struct Mesh {
     std::vector<glm::vec3> positions;  // [m], object space
     std::vector<glm::vec3> normals;    // unit; the loader derives flat ones when the file has none
     std::vector<glm::vec4>
-        tangents;  // xyz unit, w handedness +-1; present where the material has a normal map
+        tangents;  // xyz unit, w handedness +-1; present where the material has tangent_map()
     std::array<std::vector<glm::vec2>, 2> texcoords;
     std::vector<glm::vec4> colors;       // linear, multiplies base_color
     std::vector<std::uint32_t> indices;  // 3 per triangle, each < positions.size()

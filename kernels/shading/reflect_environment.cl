@@ -73,11 +73,16 @@ static inline FV3 lobe_direction(FV3 normal, FV3 to_eye, FV roughness) {
                fma(along, normal.z, -share * to_eye.z));
 }
 
+// The light of a lobe about `normal`.
+static inline FV3 lobe_light(ReflectionMaps maps, View view, FV3 normal, FV3 to_eye, FV roughness) {
+    FV3 lobe = lobe_direction(normal, to_eye, roughness);
+    return prefiltered(maps, rotate_to_world(view, lobe), roughness);
+}
+
 static inline FV3 reflected(ReflectionMaps maps, View view, Surface s, FV3 irradiance) {
     ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
-    FV3 lobe = lobe_direction(s.normal, p.to_eye, s.roughness);
-    FV3 shares = table_at(maps, p.n_dot_v, s.roughness);
-    FV3 light = prefiltered(maps, rotate_to_world(view, lobe), s.roughness);
+    FV3 shares = table_at(maps, p.lobe.n_dot_v, s.roughness);
+    FV3 light = lobe_light(maps, view, s.normal, p.to_eye, s.roughness);
     FV f90 = fv(1.0f), kept = fv(1.0f) - shares.z;
 #if HAS_SPECULAR
     f90 = p.f90;
@@ -94,12 +99,18 @@ static inline FV3 reflected(ReflectionMaps maps, View view, Surface s, FV3 irrad
     base = kept * (fv(1.0f) - s.metallic);
 #endif
     FV rise = f90 * shares.y;
-    return fv3(fma(fma(f0.x, shares.x, rise), light.x,
-                   s.albedo.x * base * (fv(1.0f) - lost.x) * irradiance.x),
-               fma(fma(f0.y, shares.x, rise), light.y,
-                   s.albedo.y * base * (fv(1.0f) - lost.y) * irradiance.y),
-               fma(fma(f0.z, shares.x, rise), light.z,
-                   s.albedo.z * base * (fv(1.0f) - lost.z) * irradiance.z));
+    FV3 out = fv3(fma(fma(f0.x, shares.x, rise), light.x,
+                      s.albedo.x * base * (fv(1.0f) - lost.x) * irradiance.x),
+                  fma(fma(f0.y, shares.x, rise), light.y,
+                      s.albedo.y * base * (fv(1.0f) - lost.y) * irradiance.y),
+                  fma(fma(f0.z, shares.x, rise), light.z,
+                      s.albedo.z * base * (fv(1.0f) - lost.z) * irradiance.z));
+#if HAS_COAT
+    FV3 of_coat = table_at(maps, p.coat.n_dot_v, s.coat_roughness);
+    FV3 coat = lobe_light(maps, view, s.coat_normal, p.to_eye, s.coat_roughness);
+    out = coated(p, out, scale3(coat, of_coat.x + of_coat.y));
+#endif
+    return out;
 }
 #else
 static inline FV3 reflected(ReflectionMaps maps, View view, Surface s, FV3 irradiance) {

@@ -47,14 +47,14 @@ static inline void shade_item(GBuffer g, LightSource from, LightSet set, ShadeOu
 #if SAMPLED_SHADOWS
     FV spread = fv(0.0f);
     set.variance = &spread;
-    set.pick = make_pick(s, out.samples, view, item.pixels, at);
+    set.pick = make_pick(s, p, out.samples, view, item.pixels, at);
 #endif
     LightSum sum = source_sum(from, g, at, item, wanted, p, set);
 #if SAMPLED_SHADOWS
     FV3 color = without_hidden(set.pick, load_radiance(out.samples.whole, view, item.pixels), sum);
     if (inside) store_plane(out.variance, item.pixels, lane_select(item.shown, spread, fv(0.0f)));
 #else
-    FV3 color = finish_shading(s, sum, out.ambient);
+    FV3 color = finish_shading(s, p, sum, out.ambient);
 #endif
     if (inside) store_light(out.to, view, item.pixels, select3(item.shown, color, zero3()));
 }

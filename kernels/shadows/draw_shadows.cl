@@ -25,7 +25,7 @@ kernel void draw_shadows(LIT_ARGS, WORD_ARGS(), SAMPLE_ARGS) {
     BEGIN_ORDERED_ITEM;
     Surface s = load_surface(g, item.pixels, item.z);
     ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
-    ShadowPick pick = make_pick(s, SAMPLES_OF_ARGS, view, item.pixels, at);
+    ShadowPick pick = make_pick(s, p, SAMPLES_OF_ARGS, view, item.pixels, at);
 #if HAS_LIGHT_PROFILES
     LightProfiles profiles = {aimed_profiles, profile_tables};
 #endif

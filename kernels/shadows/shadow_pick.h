@@ -23,6 +23,7 @@
 // The inputs by which a work-item's pixels pick lights.
 typedef struct ShadowPick {
     Surface surface;
+    ShadingPoint point;
     FV whole;    // luminance of the radiance if all lights are seen
     float rays;  // n
     uint tile;   // a hash of the fine tile of the picture, and the seed
@@ -37,10 +38,11 @@ typedef struct ShadowSamples {
 #define SAMPLES_OF_ARGS ((ShadowSamples){whole, rays, seed})
 
 // The inputs of the pixels of the work-item at `at`.
-static inline ShadowPick make_pick(Surface s, ShadowSamples samples, View view, Pixels pixels,
-                                   ItemPlace at) {
+static inline ShadowPick make_pick(Surface s, ShadingPoint p, ShadowSamples samples, View view,
+                                   Pixels pixels, ItemPlace at) {
     ShadowPick out;
     out.surface = s;
+    out.point = p;
     out.whole = luminance(load_radiance(samples.whole, view, pixels));
     out.rays = samples.rays;
     uint tile_y = (at.y + view.first_row) / FINE_TILE;
@@ -50,7 +52,7 @@ static inline ShadowPick make_pick(Surface s, ShadowSamples samples, View view, 
 
 // |f| of a light whose sum alone is `one`.
 static inline FV light_alone(ShadowPick pick, LightSum one) {
-    return luminance(reflected_radiance(pick.surface, one));
+    return luminance(reflected_radiance(pick.surface, pick.point, one));
 }
 
 static inline FV pick_probability(ShadowPick pick, FV light) {
@@ -72,7 +74,7 @@ static inline LightSum add_hidden(LightSum sum, LightSum one, FV probability, MA
 
 // The estimate: the radiance if all lights are seen without that of the sum `hidden`.
 static inline FV3 without_hidden(ShadowPick pick, FV3 whole, LightSum hidden) {
-    return sub3(whole, reflected_radiance(pick.surface, hidden));
+    return sub3(whole, reflected_radiance(pick.surface, pick.point, hidden));
 }
 
 // The term of a picked, hidden light in the estimated variance of the luminance.

@@ -65,24 +65,42 @@ SHARED_FN LightSum add_blinn_phong(LightSum sum, ShadingPoint p, FV3 v, FV dista
 }
 
 #elif SHADING == SHADING_PBR
-// Light of `lit` = intensity's weight * falloff * n.l from the unit direction `v` * `inv_length`.
-SHARED_FN LightSum add_pbr(LightSum sum, ShadingPoint p, FV3 v, FV inv_length, FV n_dot_l, FV lit,
-                           float4 color) {
+// The half vector h, not normalised.
+SHARED_PLAIN_STRUCT(HalfVector) {
+    FV3 h;
+    FV hh;  // its length squared
+};
+
+// Of light from the unit direction `v` * `inv_length`.
+SHARED_FN HalfVector half_vector(ShadingPoint p, FV3 v, FV inv_length) {
+    HalfVector half_way;
     FV3 h = fv3(fma(v.x, inv_length, p.to_eye.x), fma(v.y, inv_length, p.to_eye.y),
                 fma(v.z, inv_length, p.to_eye.z));
+    half_way.h = h;
     // 1e-12: light from straight behind the view has no half vector; the sum is only rounding (1e-7
     // long).
-    FV hh = max(dot3(h, h), fv(1e-12f));
+    half_way.hh = max(dot3(h, h), fv(1e-12f));
+    return half_way;
+}
+
+// `lit` * D * V without its constant 1 / (2 pi), which reflected_radiance() multiplies in.
+SHARED_FN FV ggx_light(GgxLobe lobe, FV3 normal, HalfVector half_way, FV n_dot_l, FV lit) {
     // Lagrange's identity |n x h|^2 = h^2 - (n.h)^2 keeps narrow lobes (Filament, 4.4.1). Both
     // sides of D's fraction are multiplied by h^2, which saves normalising h, and divided by alpha,
     // so that the peak of a mirror keeps the size it has in the end.
-    FV3 nxh = cross3(p.normal, h);
-    FV ggx = fma(dot3(nxh, nxh), p.ggx_slope, p.ggx_floor * hh);
-    FV smith_l = lane_sqrt(fma(n_dot_l * n_dot_l, fv(1.0f) - p.alpha2, p.alpha2));
-    FV smith = fma(n_dot_l, p.smith_v, p.n_dot_v * smith_l);
-    // D * V without its constant 1 / (2 pi), which reflected_radiance() multiplies in.
-    FV lobe = lane_divide(lit * (hh * hh), ggx * ggx * smith);
-    FV schlick = max(fma(-dot3(p.to_eye, h), lane_rsqrt(hh), fv(1.0f)), fv(0.0f));
+    FV hh = half_way.hh;
+    FV3 nxh = cross3(normal, half_way.h);
+    FV ggx = fma(dot3(nxh, nxh), lobe.slope, lobe.alpha * hh);
+    FV smith_l = lane_sqrt(fma(n_dot_l * n_dot_l, fv(1.0f) - lobe.alpha2, lobe.alpha2));
+    FV smith = fma(n_dot_l, lobe.smith_v, lobe.n_dot_v * smith_l);
+    return lane_divide(lit * (hh * hh), ggx * ggx * smith);
+}
+
+// Light of `lit` = intensity's weight * falloff * n.l.
+SHARED_FN LightSum add_pbr(LightSum sum, ShadingPoint p, HalfVector half_way, FV n_dot_l, FV lit,
+                           float4 color) {
+    FV lobe = ggx_light(p.lobe, p.normal, half_way, n_dot_l, lit);
+    FV schlick = max(fma(-dot3(p.to_eye, half_way.h), lane_rsqrt(half_way.hh), fv(1.0f)), fv(0.0f));
     FV schlick2 = schlick * schlick;
     FV f = schlick2 * schlick2 * schlick;
     FV g = fv(1.0f) - f;
@@ -101,6 +119,17 @@ SHARED_FN LightSum add_pbr(LightSum sum, ShadingPoint p, FV3 v, FV inv_length, F
 #endif
     return sum;
 }
+
+#if HAS_COAT
+// Light of the direction `v` * `inv_length` and of intensity's weight * falloff.
+SHARED_FN LightSum add_coat(LightSum sum, ShadingPoint p, HalfVector half_way, FV3 v, FV inv_length,
+                            FV weight, float4 color) {
+    FV n_dot_l = max(dot3(p.coat_normal, v), fv(0.0f)) * inv_length;
+    FV lobe = ggx_light(p.coat, p.coat_normal, half_way, n_dot_l, weight * n_dot_l);
+    sum.coat = add_scaled(sum.coat, lobe, color);
+    return sum;
+}
+#endif
 #endif
 
 // The share of a spot light's intensity in the direction -`v` / distance.
@@ -158,7 +187,8 @@ SHARED_FN LightSum evaluate(LightSum sum, ShadingPoint p, ShadeLight light) {
     window = window * cone_of(v, inv_d, light);
 #endif
     FV n_dot_l = n_dot_v * inv_d;
-    FV lit = window * (inv_d * inv_d) * n_dot_l;
+    FV weight = window * (inv_d * inv_d);
+    FV lit = weight * n_dot_l;
 #else
     // One root and one division, and as few products as possible.
     FV distance = lane_sqrt(e2);
@@ -168,7 +198,11 @@ SHARED_FN LightSum evaluate(LightSum sum, ShadingPoint p, ShadeLight light) {
     FV lit = lane_divide(window * n_dot_v, e2 * distance);
 #endif
 #if SHADING == SHADING_PBR
-    return add_pbr(sum, p, v, inv_d, n_dot_l, lit, light.color_scale);
+    HalfVector half_way = half_vector(p, v, inv_d);
+#if HAS_COAT
+    sum = add_coat(sum, p, half_way, v, inv_d, weight, light.color_scale);
+#endif
+    return add_pbr(sum, p, half_way, n_dot_l, lit, light.color_scale);
 #elif SHADING == SHADING_BLINN_PHONG
 #if FAST_RSQRT
     FV distance = e2 * inv_d;
@@ -184,7 +218,11 @@ SHARED_FN LightSum evaluate_directional(LightSum sum, ShadingPoint p, Directiona
     FV3 to_light = fv3(fv(light.to_light.x), fv(light.to_light.y), fv(light.to_light.z));
     FV n_dot_l = max(dot3(p.normal, to_light), fv(0.0f));
 #if SHADING == SHADING_PBR
-    return add_pbr(sum, p, to_light, fv(1.0f), n_dot_l, n_dot_l, light.color);
+    HalfVector half_way = half_vector(p, to_light, fv(1.0f));
+#if HAS_COAT
+    sum = add_coat(sum, p, half_way, to_light, fv(1.0f), fv(1.0f), light.color);
+#endif
+    return add_pbr(sum, p, half_way, n_dot_l, n_dot_l, light.color);
 #elif SHADING == SHADING_BLINN_PHONG
     return add_blinn_phong(sum, p, to_light, fv(1.0f), n_dot_l, light.color);
 #else
@@ -193,8 +231,20 @@ SHARED_FN LightSum evaluate_directional(LightSum sum, ShadingPoint p, Directiona
 #endif
 }
 
+#if HAS_COAT
+// Radiance of the coat that reflects `light`, over that of the surface below it.
+SHARED_FN FV3 coated(ShadingPoint p, FV3 below, FV3 light) {
+    FV kept = fv(1.0f) - p.coat_share;
+    // Without a coat its lobe counts for nothing, also where it overflows.
+    MASK has_coat = p.coat_share > fv(0.0f);
+    return fv3(fma(below.x, kept, lane_select(has_coat, light.x * p.coat_share, fv(0.0f))),
+               fma(below.y, kept, lane_select(has_coat, light.y * p.coat_share, fv(0.0f))),
+               fma(below.z, kept, lane_select(has_coat, light.z * p.coat_share, fv(0.0f))));
+}
+#endif
+
 // Radiance that the surface reflects, from the sums over its lights.
-SHARED_FN FV3 reflected_radiance(Surface s, LightSum sum) {
+SHARED_FN FV3 reflected_radiance(Surface s, ShadingPoint p, LightSum sum) {
     FV3 albedo = s.albedo;
     FV k = fv(INV_PI);
     FV3 out_radiance;
@@ -224,6 +274,9 @@ SHARED_FN FV3 reflected_radiance(Surface s, LightSum sum) {
                        fma(base.y * k * (fv(1.0f) - f0.y), sum.diffuse.y, lobe * sum.specular.y),
                        fma(base.z * k * (fv(1.0f) - f0.z), sum.diffuse.z, lobe * sum.specular.z));
 #endif
+#if HAS_COAT
+    out_radiance = coated(p, out_radiance, scale3(sum.coat, lobe));
+#endif
 #if HAS_UNLIT
     MASK lit = is_lit(s);
     out_radiance =
@@ -242,20 +295,42 @@ SHARED_PLAIN_STRUCT(LightBound) {
     FV3 irradiance;  // that sum times n.l, or `all` where n.l is unknown
 };
 
+#if SHADING == SHADING_PBR
+// D V n.l without 1 / (2 pi), at most, where n.h is at most `cosine`: V n.l <= 1 / (2 smith_v).
+SHARED_FN FV ggx_bound(GgxLobe lobe, FV cosine) {
+    FV ggx = fma(fv(1.0f) - cosine * cosine, lobe.slope, lobe.alpha);
+    return fv(1.0f) / (ggx * ggx * lobe.smith_v);
+}
+#endif
+
+#if HAS_COAT
+// The largest cosine of an angle to `other` of what has `cosine` >= 0 to `normal` at most.
+SHARED_FN FV turned_cosine(FV cosine, FV3 normal, FV3 other) {
+    FV3 across = cross3(normal, other);
+    FV sine = lane_sqrt(max(fma(-cosine, cosine, fv(1.0f)), fv(0.0f)));
+    FV between = dot3(normal, other);
+    // More than the rounding of normals and their lengths.
+    FV turned = fma(cosine, between, fma(sine, lane_sqrt(dot3(across, across)), fv(1e-5f)));
+    return lane_select(cosine < between, min(turned, fv(1.0f)), fv(1.0f));
+}
+#endif
+
 // Adds the largest sums that the light can cause.
 SHARED_FN LightSum add_bounds(LightSum sum, Surface s, ShadingPoint p, LightBound most) {
     sum.diffuse = add3(sum.diffuse, most.diffuse);
 #if SHADING == SHADING_PBR
     FV one = fv(1.0f);
-    // D V n.l without 1 / (2 pi): V n.l <= 1 / (2 smith_v).
-    FV ggx = fma(one - most.cosine * most.cosine, p.ggx_slope, p.ggx_floor);
-    FV peak = one / (ggx * ggx * p.smith_v);
+    FV peak = ggx_bound(p.lobe, most.cosine);
     FV3 f0 = mixed_f0(s, dielectric_f0(s));
     FV3 f = fv3(min(f0.x + most.fresnel, one), min(f0.y + most.fresnel, one),
                 min(f0.z + most.fresnel, one));
     sum.specular = fv3(fma(f.x, peak * most.all.x, sum.specular.x),
                        fma(f.y, peak * most.all.y, sum.specular.y),
                        fma(f.z, peak * most.all.z, sum.specular.z));
+#if HAS_COAT
+    FV coat_peak = ggx_bound(p.coat, turned_cosine(most.cosine, p.normal, p.coat_normal));
+    sum.coat = add3(sum.coat, scale3(most.all, coat_peak));
+#endif
 #elif SHADING == SHADING_BLINN_PHONG
     FV cos2 = most.cosine * most.cosine;
     FV peak = pow_of_cos2(cos2, fv(1.0f) - cos2, fv(1.0f), p.exponent);
@@ -268,16 +343,22 @@ SHARED_FN LightSum add_bounds(LightSum sum, Surface s, ShadingPoint p, LightBoun
 #define BOUND_ROUNDING 1e-4f
 
 // Radiance that the surface reflects at most, from bounds of the sums.
-SHARED_FN FV3 radiance_bound(Surface s, LightSum most) {
-    return scale3(reflected_radiance(s, most), fv(1.0f + BOUND_ROUNDING));
+SHARED_FN FV3 radiance_bound(Surface s, ShadingPoint p, LightSum most) {
+    return scale3(reflected_radiance(s, p, most), fv(1.0f + BOUND_ROUNDING));
 }
 
 // Radiance of the surface, from the sums over its lights.
-SHARED_FN FV3 finish_shading(Surface s, LightSum sum, float ambient) {
-    FV3 lit = reflected_radiance(s, sum);
+SHARED_FN FV3 finish_shading(Surface s, ShadingPoint p, LightSum sum, float ambient) {
+    FV3 lit = reflected_radiance(s, p, sum);
+    FV3 emissive = s.emissive;
     FV a = s.occlusion * fv(ambient);
-    return fv3(fma(a, s.albedo.x, lit.x) + s.emissive.x, fma(a, s.albedo.y, lit.y) + s.emissive.y,
-               fma(a, s.albedo.z, lit.z) + s.emissive.z);
+#if HAS_COAT
+    FV kept = fv(1.0f) - p.coat_share;
+    a = a * kept;
+    emissive = scale3(emissive, kept);
+#endif
+    return fv3(fma(a, s.albedo.x, lit.x) + emissive.x, fma(a, s.albedo.y, lit.y) + emissive.y,
+               fma(a, s.albedo.z, lit.z) + emissive.z);
 }
 
 #if defined(__cplusplus)

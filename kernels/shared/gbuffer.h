@@ -76,7 +76,19 @@ namespace kilolux {
 #define PLANE_SPECULAR_B 25
 // full, optional: float, the reflectance at grazing angles
 #define PLANE_SPECULAR_F90 26
-#define PLANE_COUNT 27
+// all but full, optional: uint, the clear coat's factor in 16 bits, its roughness in the high 16
+#define PLANE_COAT 27
+// all but full, optional: uint, the coat's normal as in PLANE_NORMAL of packed
+#define PLANE_COAT_NORMAL 28
+// full, optional: float, the coat's factor
+#define PLANE_COAT_F 29
+// full, optional: float, the coat's perceptual roughness
+#define PLANE_COAT_ROUGHNESS 30
+// full, optional: float, the coat's normal, view space, unit
+#define PLANE_COAT_NORMAL_X 31
+#define PLANE_COAT_NORMAL_Y 32
+#define PLANE_COAT_NORMAL_Z 33
+#define PLANE_COUNT 34
 #define PLANE_ABSENT 0xffffffffu
 
 // The values of a surface beside its position and normal, a row each.
@@ -85,15 +97,19 @@ namespace kilolux {
 //   decoded  its first plane of a decoded G-buffer
 //   plane    its first plane of the layout `full`
 //   value    the default, where `has` is 0
-#define SURFACE_VALUES(VECTOR, SCALAR)                                                      \
-    VECTOR(1, albedo, SURFACE_ALBEDO, PLANE_ALBEDO_R, 0.0f)        /* linear Rec. 709 */    \
-    SCALAR(1, roughness, SURFACE_ROUGHNESS, PLANE_ROUGHNESS, 1.0f) /* perceptual */         \
-    SCALAR(HAS_MATERIAL, metallic, SURFACE_METALLIC, PLANE_METALLIC, 0.0f)                  \
-    VECTOR(HAS_MATERIAL, emissive, SURFACE_EMISSIVE, PLANE_EMISSIVE_R, 0.0f) /* radiance */ \
-    SCALAR(HAS_OCCLUSION, occlusion, SURFACE_OCCLUSION, PLANE_OCCLUSION_F, 1.0f)            \
-    /* reflectance of the dielectric part head on, and at grazing angles */                 \
-    VECTOR(HAS_SPECULAR, specular, SURFACE_SPECULAR, PLANE_SPECULAR_R, DIELECTRIC_F0)       \
-    SCALAR(HAS_SPECULAR, specular_f90, SURFACE_SPECULAR_F90, PLANE_SPECULAR_F90, 1.0f)
+#define SURFACE_VALUES(VECTOR, SCALAR)                                                        \
+    VECTOR(1, albedo, SURFACE_ALBEDO, PLANE_ALBEDO_R, 0.0f)        /* linear Rec. 709 */      \
+    SCALAR(1, roughness, SURFACE_ROUGHNESS, PLANE_ROUGHNESS, 1.0f) /* perceptual */           \
+    SCALAR(HAS_MATERIAL, metallic, SURFACE_METALLIC, PLANE_METALLIC, 0.0f)                    \
+    VECTOR(HAS_MATERIAL, emissive, SURFACE_EMISSIVE, PLANE_EMISSIVE_R, 0.0f) /* radiance */   \
+    SCALAR(HAS_OCCLUSION, occlusion, SURFACE_OCCLUSION, PLANE_OCCLUSION_F, 1.0f)              \
+    /* reflectance of the dielectric part head on, and at grazing angles */                   \
+    VECTOR(HAS_SPECULAR, specular, SURFACE_SPECULAR, PLANE_SPECULAR_R, DIELECTRIC_F0)         \
+    SCALAR(HAS_SPECULAR, specular_f90, SURFACE_SPECULAR_F90, PLANE_SPECULAR_F90, 1.0f)        \
+    /* KHR_materials_clearcoat */                                                             \
+    SCALAR(HAS_CLEARCOAT, coat, SURFACE_COAT, PLANE_COAT_F, 0.0f)                             \
+    SCALAR(HAS_CLEARCOAT, coat_roughness, SURFACE_COAT_ROUGHNESS, PLANE_COAT_ROUGHNESS, 1.0f) \
+    VECTOR(HAS_CLEARCOAT, coat_normal, SURFACE_COAT_NORMAL, PLANE_COAT_NORMAL_X, 0.0f)
 // Reflectance of dielectrics at normal incidence (glTF 2.0, appendix B).
 #define DIELECTRIC_F0 0.04f
 
@@ -116,9 +132,9 @@ SHARED_STRUCT(GBufferLayout) {
     float emissive_scale;  // largest emissive value of the scene, > 0: PLANE_MATERIAL is relative
                            // to it
     uint bytes_per_pixel;
-    uint unused0, unused1;
+    uint unused0, unused1, unused2;
 };
-SHARED_ASSERT(gbuffer_layout_size, sizeof(GBufferLayout) == 128);
+SHARED_ASSERT(gbuffer_layout_size, sizeof(GBufferLayout) == 160);
 #endif
 
 // Octahedral coordinates in [-1, 1]^2 of a unit vector. Cigolle et al. 2014, "A Survey of Efficient

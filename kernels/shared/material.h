@@ -15,17 +15,23 @@ namespace kilolux {
 #define USE_EMISSIVE 4
 #define USE_SPECULAR 5
 #define USE_SPECULAR_COLOR 6
-#define USE_COUNT 7
+#define USE_CLEARCOAT 7
+#define USE_CLEARCOAT_ROUGHNESS 8
+#define USE_CLEARCOAT_NORMAL 9
+#define USE_COUNT 10
+// Bits 1 << USE_* of the maps in tangent space.
+#define TANGENT_USES ((1u << USE_NORMAL) | (1u << USE_CLEARCOAT_NORMAL))
 
 SHARED_STRUCT(MaterialRow) {
     float4 base_color;       // linear Rec. 709, alpha
     float4 emissive_cutoff;  // xyz: linear radiance; w: alpha cutoff
     float4 factors;          // metallic, roughness, normal scale, occlusion strength
     float4 specular;         // xyz: reflectance head on times the colour factor; w: specular factor
+    float4 clearcoat;        // factor, roughness, normal scale
     float4 uv_x[USE_COUNT];  // xyz: u = dot(xyz, (texcoord, 1))
     float4 uv_y[USE_COUNT];  // xyz: v likewise
 };
-SHARED_ASSERT(material_row_size, sizeof(MaterialRow) == 64 + 32 * USE_COUNT);
+SHARED_ASSERT(material_row_size, sizeof(MaterialRow) == 80 + 32 * USE_COUNT);
 
 #if defined(__cplusplus)
 }  // namespace kilolux

@@ -50,7 +50,31 @@ SHARED_FN Surface unpack_specular(UV code, Surface s) {
     return s;
 }
 
+SHARED_FN UV pack_coat(Surface s) {
+    return unorm_code(s.coat, 65535.0f) | (unorm_code(s.coat_roughness, 65535.0f) << 16);
+}
+
+SHARED_FN Surface unpack_coat(UV code, Surface s) {
+    s.coat = lane_to_float(code & 0xffffu) * (1.0f / 65535.0f);
+    s.coat_roughness = lane_to_float(code >> 16) * (1.0f / 65535.0f);
+    return s;
+}
+
+SHARED_FN UV pack_coat_normal(Surface s) {
+    FV3 octahedral = octahedral_encode(s.coat_normal);
+    return pack_normal(octahedral.x, octahedral.y);
+}
+
+SHARED_FN Surface unpack_coat_normal(UV code, Surface s) {
+    s.coat_normal =
+        octahedral_decode(snorm_of_unorm16(code & 0xffffu), snorm_of_unorm16(code >> 16));
+    return s;
+}
+
 // The optional planes of four bytes that all layouts but `full` may have, beside PLANE_MATERIAL:
 // whether the scene's G-buffers have it, its number, and its functions.
-#define PACKED_PLANES(PLANE) PLANE(HAS_SPECULAR, PLANE_SPECULAR, pack_specular, unpack_specular)
+#define PACKED_PLANES(PLANE)                                            \
+    PLANE(HAS_SPECULAR, PLANE_SPECULAR, pack_specular, unpack_specular) \
+    PLANE(HAS_CLEARCOAT, PLANE_COAT, pack_coat, unpack_coat)            \
+    PLANE(HAS_CLEARCOAT, PLANE_COAT_NORMAL, pack_coat_normal, unpack_coat_normal)
 #endif

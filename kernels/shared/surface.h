@@ -2,8 +2,8 @@
 // A point on a surface, and the values that shading with any light needs of it.
 //
 // Compile-time switches: SHADING, HAS_METALLIC, HAS_SPECULAR (KHR_materials_ior and
-// KHR_materials_specular), HAS_UNLIT. Features that the scene lacks are not compiled in; compiling
-// them in changes no bit of the radiance.
+// KHR_materials_specular), HAS_CLEARCOAT (KHR_materials_clearcoat), HAS_UNLIT. Features that the
+// scene lacks are not compiled in; compiling them in changes no bit of the radiance.
 #ifndef KILOLUX_SHARED_SURFACE_H
 #define KILOLUX_SHARED_SURFACE_H
 #include "kernels/shared/evaluate_modes.h"
@@ -25,11 +25,16 @@
 #ifndef HAS_SPECULAR
 #define HAS_SPECULAR 0
 #endif
+#ifndef HAS_CLEARCOAT
+#define HAS_CLEARCOAT 0
+#endif
 // Whether the G-buffer may hold unlit surfaces: is_lit().
 #ifndef HAS_UNLIT
 #define HAS_UNLIT 0
 #endif
 #define F0_VARIES (HAS_METALLIC || HAS_SPECULAR)
+// A clear coat is a part of glTF's model alone.
+#define HAS_COAT (HAS_CLEARCOAT != 0 && SHADING == SHADING_PBR)
 
 // Perceptual roughness below which a lobe is too narrow for float32 and 2x16 normals (Filament's
 // limit).
@@ -68,17 +73,24 @@ SHARED_FN Surface default_surface() {
 // Unlit surfaces send their emissive light alone.
 SHARED_FN MASK is_lit(Surface s) { return s.roughness > fv(UNLIT_ROUGHNESS); }
 
+// A GGX lobe as the eye sees it.
+SHARED_PLAIN_STRUCT(GgxLobe) {
+    FV n_dot_v;
+    FV alpha;    // roughness^2
+    FV alpha2;   // roughness^4
+    FV slope;    // (1 - alpha2) / alpha
+    FV smith_v;  // sqrt(n.v^2 (1 - alpha2) + alpha2)
+};
+
 // The values of a surface that are the same for all lights.
 SHARED_PLAIN_STRUCT(ShadingPoint) {
     FV3 position;
     FV3 normal;
-    FV3 to_eye;    // unit
-    FV n_dot_v;    // pbr
-    FV alpha2;     // pbr: roughness^4
-    FV ggx_slope;  // pbr: (1 - alpha2) / alpha
-    FV ggx_floor;  // pbr: alpha
-    FV smith_v;    // pbr: sqrt(n.v^2 (1 - alpha2) + alpha2)
-    FV exponent;   // blinn-phong: of cos^2
+    FV3 to_eye;   // unit
+    FV exponent;  // blinn-phong: of cos^2
+#if SHADING == SHADING_PBR
+    GgxLobe lobe;
+#endif
 #if F0_VARIES
     FV3 f0;  // pbr: reflectance head on
 #endif
@@ -86,11 +98,26 @@ SHARED_PLAIN_STRUCT(ShadingPoint) {
     FV f90;            // pbr: reflectance at grazing angles
     FV diffuse_rises;  // pbr: share of diffuse light kept at grazing angles, relative to head on
 #endif
+#if HAS_COAT
+    FV3 coat_normal;
+    GgxLobe coat;
+    FV coat_share;  // of the coat; the surface below it keeps the rest
+#endif
 };
 
 SHARED_FN FV clamped_alpha(FV roughness) {
     FV r = max(roughness, fv(ROUGHNESS_MIN));
     return r * r;
+}
+
+SHARED_FN GgxLobe make_ggx_lobe(FV3 normal, FV3 to_eye, FV roughness) {
+    GgxLobe lobe;
+    lobe.alpha = clamped_alpha(roughness);
+    lobe.alpha2 = lobe.alpha * lobe.alpha;
+    lobe.slope = (fv(1.0f) - lobe.alpha2) / lobe.alpha;
+    lobe.n_dot_v = max(dot3(normal, to_eye), fv(N_DOT_V_MIN));
+    lobe.smith_v = lane_sqrt(fma(lobe.n_dot_v * lobe.n_dot_v, fv(1.0f) - lobe.alpha2, lobe.alpha2));
+    return lobe;
 }
 
 // Reflectance head on of a surface whose dielectric part has `dielectric`.
@@ -121,22 +148,26 @@ SHARED_FN FV3 diffuse_f0(Surface s) {
     return mixed_f0(s, fv3(most, most, most));
 }
 
+#if HAS_COAT
+// KHR_materials_clearcoat, fresnel_coat(): the coat's share depends on the eye's direction alone.
+SHARED_FN ShadingPoint with_coat(ShadingPoint p, Surface s) {
+    p.coat_normal = s.coat_normal;
+    p.coat = make_ggx_lobe(s.coat_normal, p.to_eye, s.coat_roughness);
+    FV schlick = max(fv(1.0f) - p.coat.n_dot_v, fv(0.0f));
+    FV schlick2 = schlick * schlick;
+    FV f = schlick2 * schlick2 * schlick;
+    p.coat_share = s.coat * fma(fv(1.0f) - f, fv(DIELECTRIC_F0), f);
+    return p;
+}
+#endif
+
 SHARED_FN ShadingPoint make_shading_point(Surface s, bool orthographic) {
     ShadingPoint p;
     p.position = s.position;
     p.normal = s.normal;
     p.to_eye = zero3();
-    p.n_dot_v = fv(0.0f);
-    p.alpha2 = fv(0.0f);
-    p.ggx_slope = fv(0.0f);
-    p.ggx_floor = fv(0.0f);
-    p.smith_v = fv(0.0f);
     p.exponent = fv(0.0f);
 #if SHADING != SHADING_LAMBERT
-    FV alpha = clamped_alpha(s.roughness);
-    p.alpha2 = alpha * alpha;
-    p.ggx_slope = (fv(1.0f) - p.alpha2) / alpha;
-    p.ggx_floor = alpha;
     p.to_eye = fv3(fv(0.0f), fv(0.0f), fv(1.0f));
     if (!orthographic) {
         // 1e-30: a point at the eye itself has no direction to it.
@@ -145,10 +176,10 @@ SHARED_FN ShadingPoint make_shading_point(Surface s, bool orthographic) {
     }
 #endif
 #if SHADING == SHADING_BLINN_PHONG
-    p.exponent = fv(1.0f) / p.alpha2 - fv(1.0f);
+    FV alpha = clamped_alpha(s.roughness);
+    p.exponent = fv(1.0f) / (alpha * alpha) - fv(1.0f);
 #elif SHADING == SHADING_PBR
-    p.n_dot_v = max(dot3(s.normal, p.to_eye), fv(N_DOT_V_MIN));
-    p.smith_v = lane_sqrt(fma(p.n_dot_v * p.n_dot_v, fv(1.0f) - p.alpha2, p.alpha2));
+    p.lobe = make_ggx_lobe(s.normal, p.to_eye, s.roughness);
 #endif
 #if F0_VARIES
     p.f0 = mixed_f0(s, dielectric_f0(s));
@@ -158,6 +189,9 @@ SHARED_FN ShadingPoint make_shading_point(Surface s, bool orthographic) {
     p.f90 = fma(s.metallic - fv(1.0f), lost, fv(1.0f));
     FV most = max(max(s.specular.x, s.specular.y), s.specular.z);
     p.diffuse_rises = min(lost / max(fv(1.0f) - most, fv(1e-6f)), fv(1.0f));
+#endif
+#if HAS_COAT
+    p = with_coat(p, s);
 #endif
     return p;
 }

@@ -8,7 +8,8 @@
 //   prefetch_map(map, at)                   asks the caches for what a Lookup reads
 //
 // TEXTURE_USES has the bit 1 << USE_* of every texture that some material of the scene has and the
-// G-buffer keeps. HAS_SPECULAR, HAS_UNLIT: see surface.h. HAS_UNLIT_MATERIALS: some are unlit.
+// G-buffer keeps. HAS_SPECULAR, HAS_CLEARCOAT, HAS_UNLIT: see surface.h. HAS_UNLIT_MATERIALS: some
+// are unlit.
 #ifndef KILOLUX_SHARED_SURFACE_OF_H
 #define KILOLUX_SHARED_SURFACE_OF_H
 #include "kernels/shared/surface.h"
@@ -69,7 +70,7 @@ SHARED_FN Textures textures_of(SurfaceScene scene, MaterialRef material, IN(Frag
         textures.lookup = lookup_isotropic(map_of(textures.from, material, first),
                                            footprint_of(material, f, first));
         for (uint use = 0u; use < USE_COUNT; ++use) {
-            if ((MATERIAL(material).flags & (MATERIAL_SHARES_LOOKUP << use)) != 0u) {
+            if ((MATERIAL(material).lookup_shared & (1u << use)) != 0u) {
                 prefetch_map(map_of(textures.from, material, use), REF(textures.lookup));
             }
         }
@@ -91,7 +92,7 @@ SHARED_FN FV4 sample_use(IN(Textures) textures, IN(Fragment) f, uint use) {
         return sample_anisotropic(map, footprint_of(material, f, use));
     }
 #else
-    if ((MATERIAL(material).flags & (MATERIAL_SHARES_LOOKUP << use)) != 0u) {
+    if ((MATERIAL(material).lookup_shared & (1u << use)) != 0u) {
         return fetch_map(map, REF(AT(textures).lookup));
     }
 #endif
@@ -133,28 +134,39 @@ SHARED_FN FV3 unit_or_z(FV3 v) {
                lane_select(has_length, v.z * inv, fv(1.0f)));
 }
 
-SHARED_FN FV3 shading_normal(IN(Textures) textures, IN(Fragment) f) {
-    MaterialRef material = AT(textures).material;
+#if HAS_TANGENT
+// The interpolated normal, turned by the map of the use, whose x and y are scaled.
+SHARED_FN FV3 mapped_normal(IN(Textures) textures, IN(Fragment) f, uint use, float scale) {
     FV3 n = AT(f).normal;
-#if HAS_USE(USE_NORMAL)
-    if (MATERIAL(material).textures[USE_NORMAL] != SURFACE_ABSENT) {
-        // MikkTSpace: the basis as interpolated, unnormalised, and the sum normalised.
-        FV4 texel = sample_use(textures, f, USE_NORMAL);
-        float scale = MATERIAL(material).row.factors.z;
-        FV x = fma(texel.x, fv(2.0f), fv(-1.0f)) * scale;
-        FV y = fma(texel.y, fv(2.0f), fv(-1.0f)) * scale;
-        FV z = fma(texel.z, fv(2.0f), fv(-1.0f));
-        FV3 bitangent = scale3(cross3(AT(f).normal, AT(f).tangent), AT(f).handedness);
-        FV3 mapped = fv3(fma(z, n.x, fma(y, bitangent.x, x * AT(f).tangent.x)),
-                         fma(z, n.y, fma(y, bitangent.y, x * AT(f).tangent.y)),
-                         fma(z, n.z, fma(y, bitangent.z, x * AT(f).tangent.z)));
-        n = select3(lane_mask(AT(f).handedness != fv(0.0f)), mapped, n);
-    }
+    if (MATERIAL(AT(textures).material).textures[use] == SURFACE_ABSENT) return n;
+    // MikkTSpace: the basis as interpolated, unnormalised, and the sum normalised.
+    FV4 texel = sample_use(textures, f, use);
+    FV x = fma(texel.x, fv(2.0f), fv(-1.0f)) * scale;
+    FV y = fma(texel.y, fv(2.0f), fv(-1.0f)) * scale;
+    FV z = fma(texel.z, fv(2.0f), fv(-1.0f));
+    FV3 bitangent = scale3(cross3(AT(f).normal, AT(f).tangent), AT(f).handedness);
+    FV3 mapped = fv3(fma(z, n.x, fma(y, bitangent.x, x * AT(f).tangent.x)),
+                     fma(z, n.y, fma(y, bitangent.y, x * AT(f).tangent.y)),
+                     fma(z, n.z, fma(y, bitangent.z, x * AT(f).tangent.z)));
+    return select3(lane_mask(AT(f).handedness != fv(0.0f)), mapped, n);
+}
 #endif
+
+// The unit normal along n on the side that is lit.
+SHARED_FN FV3 facing_normal(MaterialRef material, IN(Fragment) f, FV3 n) {
     if ((MATERIAL(material).flags & MATERIAL_DOUBLE_SIDED) != 0u) {
         n = select3(AT(f).front, n, fv3(-n.x, -n.y, -n.z));
     }
     return unit_or_z(n);
+}
+
+SHARED_FN FV3 shading_normal(IN(Textures) textures, IN(Fragment) f) {
+    MaterialRef material = AT(textures).material;
+    FV3 n = AT(f).normal;
+#if HAS_USE(USE_NORMAL)
+    n = mapped_normal(textures, f, USE_NORMAL, MATERIAL(material).row.factors.z);
+#endif
+    return facing_normal(material, f, n);
 }
 
 SHARED_FN FV3 times_color(FV3 a, FV4 b) { return fv3(a.x * b.x, a.y * b.y, a.z * b.z); }
@@ -180,6 +192,27 @@ SHARED_FN Surface with_specular(IN(Textures) textures, IN(Fragment) f, Surface s
 }
 #endif
 
+#if HAS_CLEARCOAT
+// KHR_materials_clearcoat. Without a map of its own the coat is as smooth as the vertices' normals.
+SHARED_FN Surface with_clearcoat(IN(Textures) textures, IN(Fragment) f, Surface s) {
+    MaterialRef material = AT(textures).material;
+    FV3 n = AT(f).normal;
+    s.coat = fv(MATERIAL(material).row.clearcoat.x);
+    s.coat_roughness = fv(MATERIAL(material).row.clearcoat.y);
+#if HAS_USE(USE_CLEARCOAT)
+    s.coat *= sample_use(textures, f, USE_CLEARCOAT).x;
+#endif
+#if HAS_USE(USE_CLEARCOAT_ROUGHNESS)
+    s.coat_roughness *= sample_use(textures, f, USE_CLEARCOAT_ROUGHNESS).y;
+#endif
+#if HAS_USE(USE_CLEARCOAT_NORMAL)
+    n = mapped_normal(textures, f, USE_CLEARCOAT_NORMAL, MATERIAL(material).row.clearcoat.z);
+#endif
+    s.coat_normal = facing_normal(material, f, n);
+    return s;
+}
+#endif
+
 // KHR_materials_unlit: the base colour leaves the surface, whatever the lights.
 SHARED_FN Surface with_unlit(MaterialRef material, Surface s) {
 #if HAS_UNLIT
@@ -189,6 +222,7 @@ SHARED_FN Surface with_unlit(MaterialRef material, Surface s) {
     s.emissive = s.albedo;
     s.albedo = zero3();
     s.metallic = fv(0.0f);
+    s.coat = fv(0.0f);
 #if HAS_UNLIT
     s.roughness = fv(UNLIT_ROUGHNESS);
 #else
@@ -227,6 +261,9 @@ SHARED_FN Surface surface_of_material(IN(Textures) textures, IN(Fragment) f) {
 #endif
 #if HAS_SPECULAR
     s = with_specular(textures, f, s);
+#endif
+#if HAS_CLEARCOAT
+    s = with_clearcoat(textures, f, s);
 #endif
 #if HAS_UNLIT || HAS_UNLIT_MATERIALS
     s = with_unlit(material, s);

@@ -50,22 +50,21 @@ SHARED_ASSERT(instance_row_size, sizeof(InstanceRow) == 144);
 #define INSTANCE_BLOCK 64
 
 // Bits of SurfaceMaterial::flags, beside those of uses.
-#define MATERIAL_DOUBLE_SIDED (1u << 8)
-#define MATERIAL_UNLIT (1u << 9)
-#define MATERIAL_MASKED (1u << 10)  // cut by its alpha
-// << USE_*: the use reads the texels of the shared lookup.
-#define MATERIAL_SHARES_LOOKUP (1u << 16)
-#define USES_MAX 8
+#define USES_MAX 16
 SHARED_ASSERT(uses_have_bits, USE_COUNT <= USES_MAX);
+#define MATERIAL_DOUBLE_SIDED (1u << 16)
+#define MATERIAL_UNLIT (1u << 17)
+#define MATERIAL_MASKED (1u << 18)  // cut by its alpha
 
 SHARED_STRUCT(SurfaceMaterial) {
     MaterialRow row;
     uint textures[USES_MAX];  // TextureRows by use
     uint flags;               // bit USE_*: the use reads texcoord1; and see above
     uint lookup_use;          // the use whose lookup others share; SURFACE_ABSENT: none
-    uint unused0, unused1;
+    uint lookup_shared;       // bit USE_*: the use reads the texels of that lookup
+    uint unused0;
 };
-SHARED_ASSERT(surface_material_size, sizeof(SurfaceMaterial) == sizeof(MaterialRow) + 48);
+SHARED_ASSERT(surface_material_size, sizeof(SurfaceMaterial) == sizeof(MaterialRow) + 80);
 
 #define WRAP_REPEAT 0u
 #define WRAP_CLAMP 1u

@@ -45,5 +45,5 @@ kernel void tail_bound(GBUFFER_ARGS, ClusterGrid grid,
     // The directions are unknown: n.h and Schlick's (1 - v.h)^5 are 1 at most.
     LightBound most = {1.0f, 1.0f, received, fv3(all[0], all[1], all[2]), received};
     LightSum sum = add_bounds(zero_sum(), s, p, most);
-    store_radiance(bound, view, item.pixels, radiance_bound(s, sum));
+    store_radiance(bound, view, item.pixels, radiance_bound(s, p, sum));
 }

@@ -37,9 +37,10 @@ kernel void tail_variance(LIT_ARGS, WORD_ARGS(const), SAMPLE_ARGS,
     ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
     ShadowPick pick;
 #if SAMPLED_SHADOWS
-    pick = make_pick(s, SAMPLES_OF_ARGS, view, item.pixels, at);
+    pick = make_pick(s, p, SAMPLES_OF_ARGS, view, item.pixels, at);
 #endif
     pick.surface = s;
+    pick.point = p;
     pick.surface.emissive = zero3();
 #if HAS_LIGHT_PROFILES
     LightProfiles profiles = {aimed_profiles, profile_tables};

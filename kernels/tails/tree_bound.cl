@@ -41,8 +41,12 @@ static inline NodeError node_error(ShadingPoint p, TreeNode node, float4 at) {
     float distance = sqrt(dot(w, w));
     float near = distance * (2.0f - TREE_ROUNDING) - node.radius * TREE_ROUNDING;
     float along = p.normal.x * w.x + p.normal.y * w.y + p.normal.z * w.z;
+    float highest = along;
+#if HAS_COAT
+    highest = max(along, p.coat_normal.x * w.x + p.coat_normal.y * w.y + p.coat_normal.z * w.z);
+#endif
     float slack = node.radius * TREE_ROUNDING + 1e-5f * distance;
-    if (along < -slack) return out;  // behind the surface: no part of it is seen
+    if (highest < -slack) return out;  // behind the surface: no part of it is seen
     float inv = 1.0f / near;
     out.share = inv * inv;
     float spread = node.spread * inv;
@@ -83,7 +87,7 @@ kernel void tree_bound(LIT_ARGS,
                 sum = add_bounds(sum, s, p, most);
             }
         }
-        out = radiance_bound(s, sum);
+        out = radiance_bound(s, p, sum);
     }
     store_radiance(bound, view, item.pixels, out);
 }

@@ -23,6 +23,17 @@ static inline float3 normal_at(GBuffer g, Pixels pixel) {
     return (float3)(n.x, n.y, n.z);
 }
 
+// The least cosine to `axis` of the pixel's normals.
+static inline float cosine_at(GBuffer g, Pixels pixel, float3 axis) {
+    float cosine = dot(axis, normal_at(g, pixel));
+#if HAS_COAT
+    Surface s = load_surface(g, pixel, 1.0f);
+    float3 coat = (float3)(s.coat_normal.x, s.coat_normal.y, s.coat_normal.z);
+    if (s.coat > 0.0f) cosine = min(cosine, dot(axis, coat));
+#endif
+    return cosine;
+}
+
 static inline ClusterCone cone_of_pixels(GBuffer g, uint tile, global const uchar* order,
                                          uint first, uint count) {
     float3 sum = (float3)(0.0f);
@@ -33,13 +44,16 @@ static inline ClusterCone cone_of_pixels(GBuffer g, uint tile, global const ucha
 #if SHADING != SHADING_LAMBERT
         Surface s = load_surface(g, pixel, 1.0f);
         if (is_lit(s)) sharpness = max(sharpness, sharpness_of(s.roughness));
+#if HAS_COAT
+        if (s.coat > 0.0f) sharpness = max(sharpness, sharpness_of(s.coat_roughness));
+#endif
 #endif
     }
     float length2 = dot(sum, sum);
     float3 axis = sum * (length2 > 0.0f ? 1.0f / sqrt(length2) : 0.0f);
     float cosine = 1.0f;
     for (uint i = first; i < first + count; ++i) {
-        cosine = min(cosine, dot(axis, normal_at(g, pixels_of_tile(g.view, tile, i, order))));
+        cosine = min(cosine, cosine_at(g, pixels_of_tile(g.view, tile, i, order), axis));
     }
     ClusterCone out;
     cosine = max(cosine - 1e-5f, 0.0f);  // more than the rounding of normals and their lengths

@@ -44,7 +44,7 @@ std::vector<float> coverage_of(const Frame& black, const Frame& white) {
 SceneRenderer::SceneRenderer(SharedOptions& options, const BudgetOptions& budget,
                              FirstPicture first)
     : options_(options),
-      device_(open_gpu_async(options.settings.device)),
+      device_(open_device_async(options.settings)),
       camera_at_(std::move(first.camera)),
       scene_(first.made ? AnimatedScene(std::move(*first.made)) : open_animated_scene(options)) {
     if (!camera_at_) {

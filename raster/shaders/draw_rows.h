@@ -12,13 +12,13 @@ namespace kilolux {
 
 // Texture units: a material's maps come first, by USE_*; then the lights of forward shading, where
 // it reads them from textures.
-#define LIGHTS_UNIT 8
-#define CLUSTER_OFFSETS_UNIT 9
-#define LIGHT_LISTS_UNIT 10
-#define LIGHT_PROFILES_UNIT 11
-#define PROFILE_TABLES_UNIT 12
-#define VERTICES_UNIT 13
-#define INDICES_UNIT 14
+#define LIGHTS_UNIT (USES_MAX + 0)
+#define CLUSTER_OFFSETS_UNIT (USES_MAX + 1)
+#define LIGHT_LISTS_UNIT (USES_MAX + 2)
+#define LIGHT_PROFILES_UNIT (USES_MAX + 3)
+#define PROFILE_TABLES_UNIT (USES_MAX + 4)
+#define VERTICES_UNIT (USES_MAX + 5)
+#define INDICES_UNIT (USES_MAX + 6)
 
 // Storage blocks of the scene, after the six of forward lights; the last is the G-buffer pass's.
 #define INSTANCES_BLOCK 6

@@ -1,8 +1,8 @@
 #version 450 core
 // SPDX-License-Identifier: Apache-2.0
 // A fragment lit where it is drawn: by every light, or with CLUSTERED by the lights of its coarse
-// cluster. SHADING, HAS_SPOT_LIGHTS, HAS_METALLIC, HAS_SPECULAR, HAS_UNLIT, HAS_LIGHT_PROFILES as
-// in evaluate.h; HAS_DIRECTIONAL_LIGHTS. BLENDED: the material lets light through.
+// cluster. SHADING, HAS_SPOT_LIGHTS, HAS_METALLIC, HAS_SPECULAR, HAS_CLEARCOAT, HAS_UNLIT,
+// HAS_LIGHT_PROFILES as in evaluate.h; HAS_DIRECTIONAL_LIGHTS. BLENDED: the material lets light through.
 #include "raster/shaders/surface.glsl"
 #include "kernels/shared/evaluate.h"
 
@@ -104,7 +104,7 @@ void main() {
     }
 #endif
     sum = sum_lights(sum, p, light_range(f.z));
-    FV3 radiance = finish_shading(s, sum, frame.ambient);
+    FV3 radiance = finish_shading(s, p, sum, frame.ambient);
 #if BLENDED
     float alpha = alpha_of(scene, f.material, f);
 #else

@@ -117,6 +117,76 @@ TEST(ReferenceBrdf, SpecularModelsAreReciprocal) {
     }
 }
 
+SurfaceSample coated(SurfaceSample s, double roughness, double coat = 1.0) {
+    s.coat = coat;
+    s.coat_roughness = roughness;
+    s.coat_normal = kUp;
+    return s;
+}
+
+// KHR_materials_clearcoat: f = mix(f_base, f_coat, clearcoat * fresnel(0.04, N.V)), in angles.
+TEST(ReferenceBrdf, CoatsMixByTheEyesFresnelTerm) {
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> unit;
+    for (int i = 0; i < 500; ++i) {
+        const SurfaceSample base = surface(0.1 + 0.9 * unit(random), unit(random));
+        const SurfaceSample s = coated(base, 0.1 + 0.9 * unit(random), unit(random));
+        const glm::dvec3 v = direction(1.5 * unit(random), 6.28 * unit(random));
+        const glm::dvec3 l = direction(1.5 * unit(random), 6.28 * unit(random));
+        const double weight = s.coat * (0.04 + 0.96 * std::pow(1 - v.z, 5));
+        // A white metal's lobe without Fresnel's rise is the coat's.
+        SurfaceSample layer = surface(s.coat_roughness, 1.0, glm::dvec3(1.0));
+        const double expected = l.z * ((1 - weight) * reference_brdf(base, v, l, Shading::pbr).x +
+                                       weight * reference_brdf(layer, v, l, Shading::pbr).x);
+        EXPECT_NEAR(reference_reflection(s, v, l, Shading::pbr).x, expected, 1e-9 * expected) << i;
+        for (const Shading other : {Shading::lambert, Shading::blinn_phong}) {
+            EXPECT_EQ(reference_reflection(s, v, l, other).x,
+                      l.z * reference_brdf(base, v, l, other).x);
+        }
+    }
+}
+
+// White furnace: the share of light that a coat returns. Light directions are mirrored about half
+// vectors drawn evenly by D, so that the sum needs few of them for a lobe of any width.
+double coat_albedo(const SurfaceSample& s, const glm::dvec3& v) {
+    constexpr int kRings = 2000, kColumns = 200;
+    const double alpha = std::pow(std::max(s.coat_roughness, 0.045), 2);
+    double sum = 0.0;
+    for (int i = 0; i < kRings; ++i) {
+        const double u = (i + 0.5) / kRings;
+        const double theta = std::atan(alpha * std::sqrt(u / (1 - u)));
+        const double cosine = std::cos(theta), tangent2 = std::pow(std::tan(theta), 2);
+        const double d = 1 / (std::numbers::pi * alpha * alpha * std::pow(cosine, 4) *
+                              std::pow(1 + tangent2 / (alpha * alpha), 2));
+        for (int j = 0; j < kColumns; ++j) {
+            const glm::dvec3 h = direction(theta, (j + 0.5) * 2 * std::numbers::pi / kColumns);
+            const glm::dvec3 l = 2 * glm::dot(v, h) * h - v;
+            if (l.z <= 0) continue;
+            sum +=
+                reference_reflection(s, v, l, Shading::pbr).x * 4 * glm::dot(v, h) / (d * cosine);
+        }
+    }
+    return sum / (kRings * kColumns);
+}
+
+// Over black the coat returns its share of a lobe without Fresnel's term: all of it where the lobe
+// is narrow, less where rough facets hide each other, never more.
+TEST(ReferenceBrdf, CoatsReturnTheirShareOfAWhiteFurnace) {
+    for (const double roughness : {0.0, 0.1, 0.3, 0.6, 1.0}) {
+        for (const double theta : {0.0, 0.5, 1.0, 1.3}) {
+            SurfaceSample s = coated(surface(1.0, 0.0, glm::dvec3(0.0)), roughness);
+            s.specular = glm::dvec3(0.0);
+            s.specular_f90 = 0.0;
+            const glm::dvec3 v = direction(theta, 0.3);
+            const double share = reference_coat_share(s, v, Shading::pbr);
+            const double albedo = coat_albedo(s, v);
+            EXPECT_LE(albedo, share * (1 + 1e-3)) << roughness << ' ' << theta;
+            const double least = roughness <= 0.1 ? 1 - 1e-3 : 0.3;
+            EXPECT_GE(albedo, least * share) << roughness << ' ' << theta;
+        }
+    }
+}
+
 // Without the diffuse part: glTF's mix of it gains energy at grazing angles, as its authors state.
 TEST(ReferenceBrdf, PbrLobeReflectsNoMoreThanArrives) {
     for (const double roughness : {0.2, 0.5, 1.0}) {

@@ -10,6 +10,7 @@
 #include "host/measure/reference/decoded_samples.h"
 #include "host/measure/reference/reference_brdf.h"
 #include "host/render/renderer.h"
+#include "tests/support/sphere_scene.h"
 
 namespace kilolux {
 namespace {
@@ -37,33 +38,6 @@ glm::dvec3 room(const glm::dvec3& d) {
     return glm::dvec3(0.2, 0.25, 0.3) * (1.0 + 0.5 * d.y) +
            lobe({-0.8, 0.9, 1.2}, 0.25) * glm::dvec3(6.0, 5.5, 5.0) +
            lobe({1.0, 0.2, 0.3}, 0.4) * glm::dvec3(1.0, 1.2, 1.5);
-}
-
-Scene sphere(const Material& material) {
-    constexpr std::uint32_t kRings = 48, kColumns = 96;
-    Scene scene;
-    Mesh mesh;
-    for (std::uint32_t ring = 0; ring <= kRings; ++ring) {
-        for (std::uint32_t column = 0; column <= kColumns; ++column) {
-            const double from_top = std::numbers::pi * ring / kRings,
-                         around = 2.0 * std::numbers::pi * column / kColumns;
-            const glm::dvec3 p(std::sin(from_top) * std::sin(around), std::cos(from_top),
-                               std::sin(from_top) * std::cos(around));
-            mesh.positions.emplace_back(p);
-            mesh.normals.emplace_back(p);
-        }
-    }
-    for (std::uint32_t ring = 0; ring < kRings; ++ring) {
-        for (std::uint32_t column = 0; column < kColumns; ++column) {
-            const std::uint32_t a = ring * (kColumns + 1) + column, b = a + kColumns + 1;
-            for (const std::uint32_t i : {a, b, a + 1, a + 1, b, b + 1}) mesh.indices.push_back(i);
-        }
-    }
-    mesh.material = 0;
-    scene.meshes.push_back(std::move(mesh));
-    scene.instances.push_back({0, glm::dmat4(1.0)});
-    scene.materials.push_back(material);
-    return scene;
 }
 
 Material material_of(double roughness, double metallic) {
@@ -97,16 +71,14 @@ glm::dvec3 integral(const Environment& map, const SurfaceSample& s, const Camera
     for (int y = 0; y < map.height; ++y) {
         for (int x = 0; x < map.width; ++x) {
             const glm::dvec3 to_light = map.direction(x, y) * camera.world_from_view;
-            const double n_dot_l = glm::dot(s.normal, to_light);
-            if (n_dot_l <= 0.0) continue;
-            out += map.light(x, y) * n_dot_l * reference_brdf(s, to_eye, to_light, Shading::pbr);
+            out += map.light(x, y) * reference_reflection(s, to_eye, to_light, Shading::pbr);
         }
     }
     return s.occlusion * out;
 }
 
 Pictures pictures(const Map& map, const Material& material, bool with_integral = true) {
-    const Scene scene = sphere(material);
+    const Scene scene = sphere_scene(material);
     RenderSettings settings;
     settings.width = settings.height = 16;
     settings.lights.count = 0;
@@ -156,6 +128,25 @@ TEST(Reflections, AWhiteRoomIsReflectedExactly) {
     for (const double roughness : {0.25, 1.0}) {
         EXPECT_LT(pictures(map, material_of(roughness, 1.0)).error(), 0.01) << roughness;
         EXPECT_LT(pictures(map, material_of(roughness, 0.0)).error(), 0.01) << roughness;
+    }
+}
+
+Material coated(double roughness) {
+    Material out = material_of(1.0, 1.0);
+    out.clearcoat = 1.0f;
+    out.clearcoat_roughness = static_cast<float>(roughness);
+    return out;
+}
+
+// The coat's layer has a reflectance of 1 below its Fresnel term.
+TEST(Reflections, CoatsReflectTheRoomOverWhatIsBelow) {
+    const Map white = map_of([](const glm::dvec3&) { return glm::dvec3(1.0); });
+    const Map map = map_of(room);
+    for (const double roughness : {0.25, 0.5, 1.0}) {
+        EXPECT_LT(pictures(white, coated(roughness)).error(), 0.01) << roughness;
+        Material varnish = coated(roughness);
+        varnish.metallic = 0.0f;
+        EXPECT_LT(pictures(map, varnish).error(), 0.02) << roughness;
     }
 }
 

@@ -158,11 +158,13 @@ TEST(Layout, ClustersAgreeWithTheDevice) { expect_equal(cluster_measures()); }
 
 TEST(Layout, StructsPassedByValueArriveWhole) {
     Gpu gpu = test_gpu();
-    const cl::Program program = build_probe(
-        gpu, kLayoutHeaders,
-        "kernel void echo(View view, ClusterGrid grid, GBufferLayout layout, global View* v,\n"
-        "                 global ClusterGrid* g, global GBufferLayout* l) {\n"
-        "    *v = view;\n    *g = grid;\n    *l = layout;\n}\n");
+    const cl::Program program =
+        build_probe(
+            gpu, kLayoutHeaders,
+            "kernel void echo(View view, ClusterGrid grid, GBufferLayout layout, global View* v,\n"
+            "                 global ClusterGrid* g, global GBufferLayout* l) {\n"
+            "    *v = view;\n    *g = grid;\n    *l = layout;\n}\n")
+            .built();
     const auto fill = [](auto value, uint first) {
         auto* words = reinterpret_cast<uint*>(&value);
         for (uint i = 0; i < sizeof(value) / 4; ++i) words[i] = 0x3f800000u + first + i;

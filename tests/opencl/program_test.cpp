@@ -4,9 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <future>
+#include <thread>
 
 #include "host/base/hash.h"
 #include "host/base/source.h"
@@ -37,8 +41,9 @@ void expect_contains(const std::string& message, const std::string& part) {
 
 TEST(Program, BuildFailureNamesFileDeviceOptionsAndLog) {
     const Gpu gpu = test_gpu();
-    const std::string message = build_error(
-        [&] { build_program(gpu, "tonemap", BuildOptions().define("fv", "no_such_function")); });
+    const std::string message = build_error([&] {
+        build_program(gpu, "tonemap", BuildOptions().define("fv", "no_such_function")).built();
+    });
     expect_contains(message,
                     "kernels/picture/tonemap.cl: build failed with CL_BUILD_PROGRAM_FAILURE");
     expect_contains(message, gpu.info.name);
@@ -77,7 +82,7 @@ TEST(Program, CompilerMessagesNameTheFileAndLineOfAnInclude) {
     }
     std::ofstream(folder / "kernels/device/lanes.h") << "// broken on line 3\n\nint oops = ;\n";
     const EnvironmentVariable root("KILOLUX_SOURCE_DIR", folder.path().string());
-    const std::string message = build_error([] { build_program(test_gpu(), "tonemap"); });
+    const std::string message = build_error([] { build_program(test_gpu(), "tonemap").built(); });
     expect_contains(message, "kernels/device/lanes.h:3");
 }
 
@@ -88,7 +93,7 @@ TEST(Program, PoclReadsOurDeclarationsAlone) {
         GTEST_SKIP() << device.driver << " reads its own declarations";
     }
     const std::string text = "kernel void f(global float* a) { a[0] = hypot(a[1], a[2]); }";
-    expect_contains(build_error([&] { build_text(test_gpu(), "f", text, {}); }), "hypot");
+    expect_contains(build_error([&] { build_text(test_gpu(), "f", text, {}).built(); }), "hypot");
 }
 
 TEST(Program, UnknownStageIsAnError) {
@@ -98,11 +103,12 @@ TEST(Program, UnknownStageIsAnError) {
 
 TEST(Program, SameTextAndOptionsAreBuiltOnce) {
     const Gpu gpu = test_gpu();
-    const cl::Program first = build_program(gpu, "build_clusters");
-    EXPECT_EQ(first(), build_program(gpu, "build_clusters")());
-    EXPECT_NE(first(), build_program(gpu, "build_clusters", BuildOptions().define("UNUSED", 1))());
+    const cl::Program first = build_program(gpu, "build_clusters").built();
+    EXPECT_EQ(first(), build_program(gpu, "build_clusters").built()());
+    EXPECT_NE(first(),
+              build_program(gpu, "build_clusters", BuildOptions().define("UNUSED", 1)).built()());
     const int other_lanes = gpu.info.lane_width == 2 ? 4 : 2;
-    EXPECT_NE(first(), build_program(test_gpu(other_lanes), "build_clusters")());
+    EXPECT_NE(first(), build_program(test_gpu(other_lanes), "build_clusters").built()());
 }
 
 // A window opens a Gpu for every change of settings: contexts and programs must be released with
@@ -114,8 +120,8 @@ TEST(Program, ContextsAndProgramsGoWithTheLastGpu) {
     const auto before = context.getInfo<CL_CONTEXT_REFERENCE_COUNT>();
     for (int change = 0; change < 3; ++change) {
         const Gpu gpu(context, queue);
-        const cl::Program program = build_program(gpu, "build_clusters");
-        EXPECT_EQ(build_program(gpu.with_lanes(0), "build_clusters")(), program());
+        const cl::Program program = build_program(gpu, "build_clusters").built();
+        EXPECT_EQ(build_program(gpu.with_lanes(0), "build_clusters").built()(), program());
     }
     EXPECT_EQ(context.getInfo<CL_CONTEXT_REFERENCE_COUNT>(), before);
 }
@@ -124,7 +130,7 @@ TEST(Program, LaunchFailureNamesStageAndError) {
     const std::string message = build_error([] {
         in_stage("cull_lights", [] {
             Gpu gpu = test_gpu();
-            const cl::Program program = build_program(gpu, "build_clusters");
+            const cl::Program program = build_program(gpu, "build_clusters").built();
             cl::Kernel kernel(program, "no_such_kernel");
         });
     });
@@ -239,12 +245,74 @@ TEST(ProgramCache, SaysOnceThatBuildsTakeLong) {
     EXPECT_NEAR(cache.build_seconds(), 6.2, 1e-9);
 }
 
+TEST(ProgramCache, TimesOfThreadsThatBuildAtOnceCountOnce) {
+    ProgramCache cache;
+    const auto start = std::chrono::steady_clock::now();
+    cache.begin_build();
+    cache.begin_build();
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    cache.end_build(start);
+    cache.end_build(start);
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    EXPECT_GE(cache.build_seconds(), 0.02);
+    EXPECT_LE(cache.build_seconds(), taken.count());
+    EXPECT_EQ(cache.take_builds().size(), 2u);
+}
+
+TEST(ProgramCache, BuildsWhileTheCallerGoesOn) {
+    if (has_address_space_limit()) GTEST_SKIP() << "builds wait where memory is limited";
+    ProgramCache cache;
+    std::promise<void> begun;
+    cache.find("a", [&] {
+        begun.set_value();
+        return cl::Program();
+    });
+    begun.get_future().wait();  // nobody has asked for the program
+    EXPECT_EQ(cache.find("a", [] { return cl::Program(); }),
+              cache.find("a", [] { return cl::Program(); }));
+}
+
+TEST(ProgramCache, AFailedBuildTellsAllWhoUseItAndIsTriedAgain) {
+    ProgramCache cache;
+    const auto fails = [&]() -> cl::Program { throw Error("no"); };
+    const auto build = cache.find("a", fails);
+    EXPECT_THROW(build->program(), Error);
+    EXPECT_THROW(build->program(), Error);
+    const auto other = cache.find("a", [] { return cl::Program(); });
+    EXPECT_NE(other, build);
+    EXPECT_NO_THROW(other->program());
+}
+
+// With more programs than threads that build.
+TEST(ProgramCache, ProgramsThatOutliveItAreNotBuilt) {
+    std::vector<std::shared_ptr<ProgramBuild>> builds;
+    std::atomic<int> begun = 0;
+    {
+        ProgramCache cache;
+        for (int i = 0; i < 50; ++i) {
+            builds.push_back(cache.find(std::to_string(i), [&] {
+                ++begun;
+                std::this_thread::sleep_for(std::chrono::milliseconds(20));
+                return cl::Program();
+            }));
+        }
+    }
+    const int of_the_cache = begun;
+    EXPECT_LT(of_the_cache, 50);
+    int failed = 0;
+    for (const auto& build : builds) {
+        failed += build_error([&] { build->program(); }) != "no error" ? 1 : 0;
+    }
+    EXPECT_EQ(failed, 50 - of_the_cache);
+    EXPECT_EQ(begun, of_the_cache);
+}
+
 TEST(BuiltPrograms, AreToldOnce) {
     const Gpu gpu = test_gpu();
     gpu.programs->take_builds();
     const std::string text = "kernel void nothing(global uint* a) { a[0] = 1u; }";
-    build_text(gpu, "nothing", text, {});
-    build_text(gpu, "nothing", text, {});
+    build_text(gpu, "nothing", text, {}).built();
+    build_text(gpu, "nothing", text, {}).built();
     const std::vector<BuildSpan> builds = gpu.programs->take_builds();
     ASSERT_EQ(builds.size(), 1u);
     EXPECT_LT(builds[0].start, builds[0].end);

@@ -152,7 +152,7 @@ FV3 shade_on_host(const Surface& s, const View& view, const Lights& lights) {
     }
     for (const Light& light : lights.local)
         sum = evaluate(sum, p, shade_light(view, light, 0u, 0u));
-    return finish_shading(s, sum, 0.02f);
+    return finish_shading(s, p, sum, 0.02f);
 }
 
 TEST_F(ForwardPassTest, ShadesAsTheHostDoes) {

@@ -2,6 +2,7 @@
 // Every layout holds what kernels/shared/gbuffer.h says of it, for one tilted surface.
 #include "host/base/error.h"
 #include "tests/raster/gl_fixture.h"
+#include "tests/support/messages.h"
 
 namespace kilolux {
 namespace {
@@ -61,6 +62,7 @@ TEST_F(GBufferLayoutsTest, ReadsAreThePlanesOfTheLayout) {
         for (const bool optional : {false, true}) {
             GBufferNeeds needs = make_needs(layout);
             needs.material = needs.occlusion = needs.specular = needs.unlit = optional;
+            needs.clearcoat = optional && layout != GBUFFER_FULL;
             const GBufferLayout planes = make_gbuffer_layout(needs, 16, 1);
             const TargetPlan plan = plan_targets(needs);
             std::vector<uint> expected;
@@ -72,6 +74,15 @@ TEST_F(GBufferLayoutsTest, ReadsAreThePlanesOfTheLayout) {
             EXPECT_EQ(read, expected) << gbuffer_layout_name(layout) << " optional " << optional;
         }
     }
+}
+
+TEST_F(GBufferLayoutsTest, MorePlanesThanOpenGlDrawsToAreRefused) {
+    GBufferNeeds needs = make_needs(GBUFFER_FULL);
+    needs.material = needs.occlusion = needs.specular = needs.clearcoat = true;
+    const std::string message = message_of<UsageError>([&] { plan_targets(needs); });
+    EXPECT_EQ(message,
+              "--geometry planes: 25 planes of --gbuffer full for this scene, OpenGL draws to 24 "
+              "at once; take --geometry ids");
 }
 
 TEST_F(GBufferLayoutsTest, DepthIsTheSameInAll) {

@@ -8,6 +8,7 @@
 #include "host/base/error.h"
 #include "host/certify/tail_scenarios.h"
 #include "tests/support/render_fixture.h"
+#include "tests/support/sphere_scene.h"
 
 namespace kilolux {
 namespace {
@@ -60,6 +61,52 @@ TEST(LightTreePictures, ErrWithinTheirBound) {
             EXPECT_LE(found.largest_error, 0.5 * share);
         }
     }
+}
+
+TailAgreement compare_coated(const Scene& scene, Tails tails) {
+    RenderSettings settings = tree_settings(10.0f);
+    settings.width = settings.height = 48;
+    settings.tails = tails;
+    settings.range_budget = 0.05;
+    const Camera camera = look_at({0.5, 0.8, 4.0}, {0, 0, 0}, {0, 1, 0}, 0.55);
+    return compare_tails({"", scene, camera}, settings);
+}
+
+// Points without a range in the box from `low` to `high`.
+void add_points(Scene& scene, int count, const glm::dvec3& low, const glm::dvec3& high) {
+    for (int i = 0; i < count; ++i) {
+        SceneLight light;
+        const glm::dvec3 share(std::fmod(0.6180339 * i, 1.0), std::fmod(0.3247 * i, 1.0),
+                               std::fmod(0.7548776 * i, 1.0));
+        light.position = low + share * (high - low);
+        light.intensity = {1.0f, 3.0f, 2.0f};
+        scene.lights.push_back(light);
+    }
+}
+
+TEST(LightTreePictures, ErrWithinTheirBoundUnderCoats) {
+    Scene scene = car_paint_scene();
+    scene.materials[0].normal_scale = 2.0f;
+    add_points(scene, 1500, {-4.5, 1.0, -4.5}, {4.5, 3.0, 4.5});
+    for (const Tails tails : {Tails::tree, Tails::bounded}) {
+        const TailAgreement found = compare_coated(scene, tails);
+        EXPECT_EQ(found.below, 0);
+        EXPECT_GT(found.looseness.size(), 500u);
+    }
+}
+
+// All surfaces are turned away from all lights, their coats are not.
+TEST(LightTreePictures, CountNodesThatOnlyCoatsFace) {
+    Scene scene = car_paint_scene();
+    scene.images.push_back({"west", 1, 1, {0, 128, 140, 255}});
+    scene.textures.push_back({static_cast<int>(scene.images.size()) - 1, {}});
+    scene.materials[0].normal_texture.texture = static_cast<int>(scene.textures.size()) - 1;
+    scene.materials[0].normal_scale = 1.0f;
+    scene.materials[0].clearcoat_normal_texture = {};
+    add_points(scene, 300, {5, 0, 1}, {6, 1, 2});
+    const TailAgreement found = compare_coated(scene, Tails::tree);
+    EXPECT_EQ(found.below, 0);
+    EXPECT_GT(found.looseness.size(), 200u);
 }
 
 TEST(LightTreePictures, EvaluateFewLights) {

@@ -41,6 +41,12 @@ Material everything_material() {
     m.specular_color = {1.0f, 0.9f, 0.2f};
     m.specular_texture = {1, 1, glm::mat3(1.0f)};
     m.specular_color_texture = {0, 0, glm::mat3(1.0f)};
+    m.clearcoat = 0.8f;
+    m.clearcoat_texture = {1, 0, glm::mat3(1.0f)};
+    m.clearcoat_roughness = 0.1f;
+    m.clearcoat_roughness_texture = {1, 1, glm::mat3(1.0f)};
+    m.clearcoat_normal_texture = {1, 0, glm::mat3(1.0f)};
+    m.clearcoat_normal_scale = 0.7f;
     return m;
 }
 
@@ -167,6 +173,11 @@ struct Materials {
         if (!same_use(m.specular_texture, n.specular_texture)) return "specular texture";
         if (!same_use(m.specular_color_texture, n.specular_color_texture))
             return "specular colour texture";
+        if (!same_use(m.clearcoat_texture, n.clearcoat_texture)) return "coat's texture";
+        if (!same_use(m.clearcoat_roughness_texture, n.clearcoat_roughness_texture))
+            return "coat's roughness texture";
+        if (!same_use(m.clearcoat_normal_texture, n.clearcoat_normal_texture))
+            return "coat's normal map";
         return "";
     }
 };
@@ -185,6 +196,11 @@ std::string factor_difference(const Material& a, const Material& b) {
     if (a.unlit) return "";
     if (a.ior != b.ior || a.specular != b.specular || a.specular_color != b.specular_color)
         return "ior or specular";
+    if (a.clearcoat != b.clearcoat || a.clearcoat_roughness != b.clearcoat_roughness)
+        return "clear coat";
+    if (a.clearcoat_normal_texture.present() &&
+        a.clearcoat_normal_scale != b.clearcoat_normal_scale)
+        return "coat's normal scale";
     return "";
 }
 

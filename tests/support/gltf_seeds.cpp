@@ -74,7 +74,13 @@ void add_materials(GltfBuilder& file) {
          {{"specularFactor", 0.5},
           {"specularColorFactor", {1, 0.5, 2}},
           {"specularTexture", {{"index", webp}, {"extensions", transform(0.5, 0, 1)}}},
-          {"specularColorTexture", {{"index", jpeg}, {"texCoord", 1}}}}}};
+          {"specularColorTexture", {{"index", jpeg}, {"texCoord", 1}}}}},
+        {"KHR_materials_clearcoat",
+         {{"clearcoatFactor", 0.75},
+          {"clearcoatTexture", {{"index", webp}}},
+          {"clearcoatRoughnessFactor", 0.125},
+          {"clearcoatRoughnessTexture", {{"index", jpeg}, {"texCoord", 1}}},
+          {"clearcoatNormalTexture", {{"index", webp}, {"scale", 0.5}}}}}};
     file.add("materials", {{"name", "lamp"},
                            {"alphaMode", "BLEND"},
                            {"extensions", {{"KHR_materials_unlit", json::object()}}}});
@@ -140,13 +146,12 @@ GltfBuilder every_feature_file() {
     add_meshopt_quad(file, "TRIANGLES");
     add_draco_quad(file, draco_quad(kDracoEdgebreaker));
     add_fallback_buffer(file);
-    file.root["extensionsRequired"] = {
-        "KHR_lights_punctual",        "KHR_texture_transform",
-        "KHR_mesh_quantization",      "KHR_materials_emissive_strength",
-        "KHR_materials_unlit",        "KHR_materials_ior",
-        "KHR_materials_specular",     "EXT_meshopt_compression",
-        "KHR_draco_mesh_compression", "EXT_texture_webp",
-        "KHR_node_visibility"};
+    file.root["extensionsRequired"] = {"KHR_lights_punctual",     "KHR_texture_transform",
+                                       "KHR_mesh_quantization",   "KHR_materials_emissive_strength",
+                                       "KHR_materials_unlit",     "KHR_materials_ior",
+                                       "KHR_materials_specular",  "KHR_materials_clearcoat",
+                                       "EXT_meshopt_compression", "KHR_draco_mesh_compression",
+                                       "EXT_texture_webp",        "KHR_node_visibility"};
     file.root["extensionsUsed"] = file.root["extensionsRequired"];
     return file;
 }

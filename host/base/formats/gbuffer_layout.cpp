@@ -35,6 +35,8 @@ constexpr PlaneRow kPlanes[] = {
     {PLANE_ROW_1, {0, 0, 0, 0, 16}},
     {PLANE_SPECULAR, {4, 0, 4, 4, 4}, &N::specular},
     {PLANE_SPECULAR_F90, {0, 4, 0, 0, 0}, &N::specular},
+    {PLANE_COAT_NORMAL, {4, 0, 4, 4, 4}, &N::clearcoat},
+    {PLANE_COAT_NORMAL_Z, {0, 4, 0, 0, 0}, &N::clearcoat},
 };
 
 static_assert(std::ranges::is_sorted(kPlanes, {}, &PlaneRow::last) &&

@@ -44,7 +44,7 @@ kernel void probe(global const float* x, global const ShadeLight* lights, uint l
     ShadingPoint p = make_shading_point(s, false);
     LightSum sum = zero_sum();
     for (uint k = 0; k < light_count; ++k) sum = evaluate(sum, p, lights[k]);
-    lane_store(finish_shading(s, sum, 0.0f).x, out + i);
+    lane_store(finish_shading(s, p, sum, 0.0f).x, out + i);
     lane_store(slice_of_depth(grid, lane_load(x + i) * 1e-30f), slices + i);
 }
 )";
@@ -82,7 +82,7 @@ DenormalOutput on_device(Gpu gpu, const DenormalInput& in, int shading, bool flu
     BuildOptions options = BuildOptions().define("SHADING", shading);
     if (flush) options.flag("-cl-denorms-are-zero");
     cl::KernelFunctor<cl::Buffer, cl::Buffer, uint, float, ClusterGrid, cl::Buffer, cl::Buffer>
-        kernel(build_probe(gpu, kEvaluateHeaders, kEvaluateProbe, options), "probe");
+        kernel(build_probe(gpu, kEvaluateHeaders, kEvaluateProbe, options).built(), "probe");
     const cl::Buffer out = new_buffer(gpu, std::vector<float>(in.x.size()));
     const cl::Buffer slices = new_buffer(gpu, std::vector<uint>(in.x.size()));
     const auto items = in.x.size() / static_cast<std::size_t>(gpu.info.lane_width);
@@ -109,7 +109,7 @@ DenormalOutput on_host(const DenormalInput& in, bool flush) {
         const ShadingPoint p = make_shading_point(s, false);
         LightSum sum = zero_sum();
         for (const ShadeLight& light : in.lights) sum = evaluate(sum, p, light);
-        out.radiance.push_back(finish_shading(s, sum, 0.0f).x);
+        out.radiance.push_back(finish_shading(s, p, sum, 0.0f).x);
         out.slices.push_back(slice_of_depth(in.grid, x * 1e-30f));
     }
 #if defined(__SSE2__)

@@ -95,6 +95,9 @@ std::vector<SurfaceSample> random_surfaces(uint width, uint height) {
         s.metallic = random.below(2);
         s.specular = {random.unit(), random.unit(), random.unit()};
         s.specular_f90 = random.unit();
+        s.coat = random.unit();
+        s.coat_roughness = random.uniform(0.1, 1.0);
+        s.coat_normal = s.normal;
         surfaces.push_back(s);
     }
     return surfaces;
@@ -109,6 +112,7 @@ std::vector<SurfaceSample> mirrored(const std::vector<SurfaceSample>& surfaces) 
         SurfaceSample s = surfaces[i];
         s.position.x = -s.position.x;
         s.normal.x = -s.normal.x;
+        s.coat_normal.x = -s.coat_normal.x;
         out[i - x + (kMirrorWidth - 1 - x)] = s;
     }
     return out;

@@ -31,7 +31,7 @@ template <typename T, typename... Arguments>
 std::vector<T> run_probe(Gpu gpu, const Probe& probe, std::size_t items, std::size_t count,
                          const Arguments&... arguments) {
     constexpr T kUnwritten = 77777;  // no probe's result
-    const cl::Program program = build_probe(gpu, probe.headers, probe.text, probe.options);
+    const cl::Program program = build_probe(gpu, probe.headers, probe.text, probe.options).built();
     const cl::Buffer out = new_buffer(gpu, std::vector<T>(count, kUnwritten));
     // PoCL has the private memory of a whole group on a thread's stack.
     const cl::NDRange group(std::gcd(items, std::size_t{16}));

@@ -68,6 +68,8 @@ void fill_values(Synthetic& image, const DepthOf& depth, Random& random) {
                 const bool stored = image.layout.offset_bytes[plane] != PLANE_ABSENT;
                 if (stored) image.put(plane, pixel, random.unit());
             }
+            if (image.layout.offset_bytes[PLANE_COAT_NORMAL_X] == PLANE_ABSENT) continue;
+            image.put(PLANE_COAT_NORMAL_X, pixel, random.direction());
         }
     }
 }

@@ -115,18 +115,29 @@ glm::dvec3 smooth_normal(const SurfaceHit& hit) {
     return interpolated_direction(hit, normals, cofactors * orientation(hit));
 }
 
-glm::dvec3 mapped_normal(const SurfaceHit& hit, const Footprints& uv) {
+// The normal on the side that is seen, by the map of a use, whose x and y are scaled.
+glm::dvec3 mapped_normal(const SurfaceHit& hit, const Footprints& uv, int use, double scale) {
+    const double side = front_facing(hit) ? 1.0 : -1.0;
     const glm::dvec3 normal = smooth_normal(hit);
-    const Material& material = material_of(hit);
+    const MaterialMap& of_use = kMaterialMaps[static_cast<std::size_t>(use)];
     const auto& tangents = mesh_of(hit).tangents;
-    if (!material.normal_texture.present() || tangents.empty()) return unit_or_zero(normal);
+    if (!(material_of(hit).*of_use.member).present() || tangents.empty()) {
+        return unit_or_zero(normal) * side;
+    }
     const glm::dmat3 world_from_object(instance_of(hit).world_from_object);
     const glm::dvec3 tangent = interpolated_direction(hit, tangents, world_from_object);
     const double w = interpolated<glm::dvec4>(hit, tangents, hit.hit.weights).w;
     const glm::dvec3 bitangent = glm::cross(normal, tangent) * (w * orientation(hit));
-    const glm::dvec3 map = 2.0 * glm::dvec3(texel(hit, USE_NORMAL, uv)) - 1.0;
-    const double scale = material.normal_scale;
-    return unit_or_zero(tangent * (map.x * scale) + bitangent * (map.y * scale) + normal * map.z);
+    const glm::dvec3 map = 2.0 * glm::dvec3(texel(hit, use, uv)) - 1.0;
+    const glm::dvec3 sum = tangent * (map.x * scale) + bitangent * (map.y * scale) + normal * map.z;
+    return unit_or_zero(sum) * side;
+}
+
+void set_coat(const SurfaceHit& hit, const Footprints& uv, SurfaceSample& out) {
+    const Material& m = material_of(hit);
+    out.coat = m.clearcoat * texel(hit, USE_CLEARCOAT, uv).x;
+    out.coat_roughness = m.clearcoat_roughness * texel(hit, USE_CLEARCOAT_ROUGHNESS, uv).y;
+    out.coat_normal = mapped_normal(hit, uv, USE_CLEARCOAT_NORMAL, m.clearcoat_normal_scale);
 }
 
 void set_reflectance(const SurfaceHit& hit, const Footprints& uv, SurfaceSample& out) {
@@ -142,6 +153,7 @@ void apply_unlit(SurfaceSample& surface) {
     surface.kind = SurfaceKind::unlit;
     surface.emissive = surface.albedo;
     surface.albedo = glm::dvec3(0.0);
+    surface.coat = 0.0;
 }
 
 }  // namespace
@@ -164,7 +176,7 @@ SurfaceSample surface_at(const SurfaceHit& hit) {
     SurfaceSample out;
     out.kind = SurfaceKind::lit;
     out.albedo = glm::dvec3(base_color(hit, uv));
-    out.normal = mapped_normal(hit, uv) * (front_facing(hit) ? 1.0 : -1.0);
+    out.normal = mapped_normal(hit, uv, USE_NORMAL, material.normal_scale);
     const glm::dvec4 metallic_roughness = texel(hit, USE_METALLIC_ROUGHNESS, uv);
     out.roughness = material.roughness * metallic_roughness.y;
     out.metallic = material.metallic * metallic_roughness.z;
@@ -172,6 +184,7 @@ SurfaceSample surface_at(const SurfaceHit& hit) {
     out.occlusion = 1.0 + material.occlusion_strength * (occlusion - 1.0);
     out.emissive = glm::dvec3(material.emissive) * glm::dvec3(texel(hit, USE_EMISSIVE, uv));
     set_reflectance(hit, uv, out);
+    set_coat(hit, uv, out);
     if (material.unlit) apply_unlit(out);
     return out;
 }

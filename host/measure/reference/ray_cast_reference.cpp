@@ -59,8 +59,9 @@ SurfaceSamples RayCaster::cast(const Camera& camera, int width, int height,
         sample.instance = bvh_.triangles()[hit->index].instance;
         sample.triangle = bvh_.triangles()[hit->index].triangle;
         sample.position = view_ray.origin + hit->t * view_ray.direction;
-        const bool has_normal = sample.normal != glm::dvec3(0.0);
-        sample.normal = has_normal ? view_from_world * sample.normal : glm::dvec3(0.0, 0.0, 1.0);
+        for (glm::dvec3* n : {&sample.normal, &sample.coat_normal}) {
+            *n = *n != glm::dvec3(0.0) ? view_from_world * *n : glm::dvec3(0.0, 0.0, 1.0);
+        }
     };
     const auto cast_row = [&](int y) {
         for (int x = 0; x < width; ++x) cast_pixel(x, y);

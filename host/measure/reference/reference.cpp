@@ -43,19 +43,20 @@ template <typename Sees>
 void add_incident(Pixel& pixel, const SurfaceSample& surface, const glm::dvec3& to_light,
                   const glm::dvec3& irradiance, const ReferenceOptions& options, const Sees& sees) {
     pixel.scale.add(glm::abs(irradiance));
-    const double n_dot_l = glm::dot(surface.normal, to_light);
-    if (!(n_dot_l > 0.0) || !sees()) return;
     const glm::dvec3 to_eye = direction_to_eye(surface.position, options.orthographic);
-    const glm::dvec3 brdf = reference_brdf(surface, to_eye, to_light, options.shading);
-    pixel.radiance.add(brdf * irradiance * n_dot_l);
+    const glm::dvec3 share = reference_reflection(surface, to_eye, to_light, options.shading);
+    if (share == glm::dvec3(0.0) || !sees()) return;
+    pixel.radiance.add(share * irradiance);
 }
 
 Pixel shade(const SurfaceSample& surface, const ReferenceLights& lights,
             const ReferenceOptions& options) {
     Pixel pixel;
-    pixel.radiance.add(surface.emissive);
+    const glm::dvec3 to_eye = direction_to_eye(surface.position, options.orthographic);
+    const double below = 1.0 - reference_coat_share(surface, to_eye, options.shading);
+    pixel.radiance.add(below * surface.emissive);
     if (surface.kind != SurfaceKind::lit) return pixel;
-    pixel.radiance.add(options.ambient * surface.occlusion * surface.albedo);
+    pixel.radiance.add(below * options.ambient * surface.occlusion * surface.albedo);
     std::optional<ShadowPoint> point;  // none: it sees every light
     if (options.shadows != nullptr) point = options.shadows->point_at(surface.position);
     for (const ReferenceDirectionalLight& light : lights.directional) {

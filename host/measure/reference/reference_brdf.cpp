@@ -13,8 +13,8 @@ constexpr double kRoughnessMin = 0.045;  // Filament: float32 cannot resolve nar
 constexpr double kNDotVMin = 1e-4;       // Filament: surfaces seen edge-on
 constexpr double kHalfMin = 1e-6;        // opposite directions of view and light: no half vector
 
-double alpha2_of(const SurfaceSample& surface) {
-    const double r = std::max(surface.roughness, kRoughnessMin);
+double alpha2_of(double roughness) {
+    const double r = std::max(roughness, kRoughnessMin);
     return r * r * r * r;
 }
 
@@ -50,7 +50,7 @@ double sin2(const glm::dvec3& n, const glm::dvec3& h) {
 
 glm::dvec3 blinn_phong(const SurfaceSample& s, const glm::dvec3& v, const glm::dvec3& l) {
     const glm::dvec3 h = half_vector(v, l);
-    const double exponent = 2.0 / alpha2_of(s) - 2.0;
+    const double exponent = 2.0 / alpha2_of(s.roughness) - 2.0;
     const double lobe = glm::dot(s.normal, h) > 0.0
                             ? std::exp(0.5 * exponent * std::log1p(-sin2(s.normal, h)))
                             : 0.0;  // also of exponent 0: the limit of small ones
@@ -70,16 +70,20 @@ double smith_visibility(double n_dot_l, double n_dot_v, double alpha2) {
     return 0.5 / (over_v + over_l);
 }
 
+// D V of a lobe, with a cosine to the light of at least 0.
+double lobe_of(const glm::dvec3& n, double alpha2, const glm::dvec3& v, const glm::dvec3& l) {
+    const double n_dot_l = std::max(glm::dot(n, l), 0.0);
+    const double n_dot_v = std::max(glm::dot(n, v), kNDotVMin);
+    return ggx(sin2(n, half_vector(v, l)), alpha2) * smith_visibility(n_dot_l, n_dot_v, alpha2);
+}
+
 glm::dvec3 pbr(const SurfaceSample& s, const glm::dvec3& v, const glm::dvec3& l) {
     const glm::dvec3 h = half_vector(v, l);
-    const double alpha2 = alpha2_of(s);
-    const double n_dot_l = std::max(glm::dot(s.normal, l), 0.0);
-    const double n_dot_v = std::max(glm::dot(s.normal, v), kNDotVMin);
     const glm::dvec3 f0 = f0_of(s);
     const double schlick = std::pow(std::max(1.0 - glm::dot(v, h), 0.0), 5.0);
     const double f90 = 1.0 - (1.0 - s.metallic) * (1.0 - s.specular_f90);
     const glm::dvec3 fresnel = f0 + (f90 - f0) * schlick;
-    const double lobe = ggx(sin2(s.normal, h), alpha2) * smith_visibility(n_dot_l, n_dot_v, alpha2);
+    const double lobe = lobe_of(s.normal, alpha2_of(s.roughness), v, l);
     // glTF's appendix B mixes whole BRDFs by metallic. Here, as in the kernels, F0 is mixed first
     // and both lobes share one F.
     return diffuse_of(s) * (1.0 - diffuse_loss(s, schlick)) + fresnel * lobe;
@@ -98,6 +102,28 @@ glm::dvec3 reference_brdf(const SurfaceSample& surface, const glm::dvec3& to_eye
         default:
             return surface.albedo / std::numbers::pi;
     }
+}
+
+double reference_coat_share(const SurfaceSample& surface, const glm::dvec3& to_eye, Shading model) {
+    if (model != Shading::pbr || surface.kind == SurfaceKind::unlit) return 0.0;
+    const double n_dot_v = std::max(glm::dot(surface.coat_normal, to_eye), kNDotVMin);
+    return surface.coat * (0.04 + 0.96 * std::pow(std::max(1.0 - n_dot_v, 0.0), 5.0));
+}
+
+glm::dvec3 reference_reflection(const SurfaceSample& surface, const glm::dvec3& to_eye,
+                                const glm::dvec3& to_light, Shading model) {
+    const double n_dot_l = glm::dot(surface.normal, to_light);
+    const double coat_dot_l = glm::dot(surface.coat_normal, to_light);
+    const double share = reference_coat_share(surface, to_eye, model);
+    glm::dvec3 out(0.0);
+    if (n_dot_l > 0.0) {
+        out += (1.0 - share) * n_dot_l * reference_brdf(surface, to_eye, to_light, model);
+    }
+    if (coat_dot_l > 0.0 && share > 0.0) {
+        const double alpha2 = alpha2_of(surface.coat_roughness);
+        out += share * coat_dot_l * lobe_of(surface.coat_normal, alpha2, to_eye, to_light);
+    }
+    return out;
 }
 
 }  // namespace kilolux

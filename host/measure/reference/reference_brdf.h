@@ -8,7 +8,7 @@
 
 namespace kilolux {
 
-/// The BRDF [1/sr] of a surface, in double, independent of the kernels.
+/// The BRDF [1/sr] of a surface without its clear coat, in double, independent of the kernels.
 ///
 /// `to_eye` is unit; `to_light` is unit, or shorter for a light nearer than 1 cm.
 /// lambert:     albedo / pi.
@@ -20,5 +20,14 @@ namespace kilolux {
 /// 0.045)^2, n.v is at least 1e-4. `model` must not be Shading::automatic.
 glm::dvec3 reference_brdf(const SurfaceSample& surface, const glm::dvec3& to_eye,
                           const glm::dvec3& to_light, Shading model);
+
+/// The share of the clear coat in what the eye sees of a surface; the surface below it, with its
+/// emission, keeps the rest. pbr: KHR_materials_clearcoat's fresnel_coat(); 0 otherwise.
+double reference_coat_share(const SurfaceSample& surface, const glm::dvec3& to_eye, Shading model);
+
+/// Radiance that the surface sends to the eye by irradiance 1 from `to_light`, perpendicular to it:
+/// BRDF times cosine of the surface and of its coat, mixed by the coat's share.
+glm::dvec3 reference_reflection(const SurfaceSample& surface, const glm::dvec3& to_eye,
+                                const glm::dvec3& to_light, Shading model);
 
 }  // namespace kilolux

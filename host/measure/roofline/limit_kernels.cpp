@@ -95,7 +95,7 @@ double LimitKernels::lane_operations_per_s(const char* kernel, int operations) {
     const cl::EnqueueArgs items(gpu_.queue, cl::NDRange(items_), cl::NDRange(group_));
     double best = 0.0;
     for (const Width& width : widths_) {
-        cl::KernelFunctor<uint, float, float, cl::Buffer> run(width.program, kernel);
+        cl::KernelFunctor<uint, float, float, cl::Buffer> run(width.program.built(), kernel);
         const double unit = static_cast<double>(items_) * width.lanes * operations;
         best = std::max(best, best_rate(unit, 1u << 30, [&](uint n) {
                             return event_seconds(run(items, n, kA, kB, out_));
@@ -108,7 +108,7 @@ double LimitKernels::texels_per_s() {
     const cl::EnqueueArgs items(gpu_.queue, cl::NDRange(items_), cl::NDRange(group_));
     double best = 0.0;
     for (const Width& width : widths_) {
-        cl::KernelFunctor<uint, cl::Buffer, cl::Buffer> run(width.texels, "texel_rate");
+        cl::KernelFunctor<uint, cl::Buffer, cl::Buffer> run(width.texels.built(), "texel_rate");
         const double unit = static_cast<double>(items_) * width.lanes * kTexelChains;
         best = std::max(best, best_rate(unit, 1u << 30, [&](uint n) {
                             return event_seconds(run(items, n, texels_, out_));
@@ -125,8 +125,8 @@ struct LimitKernels::Walk {
 };
 
 double LimitKernels::walk_bytes_per_s(const char* kernel, const Walk& walk) {
-    cl::KernelFunctor<uint, uint, uint, uint, cl::Buffer, cl::Buffer, cl::Buffer> run(program_,
-                                                                                      kernel);
+    cl::KernelFunctor<uint, uint, uint, uint, cl::Buffer, cl::Buffer, cl::Buffer> run(
+        program_.built(), kernel);
     const cl::EnqueueArgs items(gpu_.queue, cl::NDRange(walkers_), cl::NDRange(group_));
     return best_rate(walk.bytes_per_repeat, 1u << 20, [&](uint repeats) {
         return event_seconds(
@@ -176,7 +176,7 @@ void LimitKernels::measure_transfers(DeviceLimits& limits) {
 
 void LimitKernels::measure_launch(DeviceLimits& limits) {
     constexpr int kLaunches = 200;
-    cl::KernelFunctor<cl::Buffer> nothing(program_, "launch_nothing");
+    cl::KernelFunctor<cl::Buffer> nothing(program_.built(), "launch_nothing");
     const cl::EnqueueArgs one(gpu_.queue, cl::NDRange(group_), cl::NDRange(group_));
     limits.launch_latency_ms = limits.launch_event_ms = std::numeric_limits<double>::infinity();
     for (int i = 0; i < kLaunches; ++i) {

@@ -1,12 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/render/plan/kernel_choice.h"
 
+#include "host/stages/lights/drift_lights.h"
+#include "host/stages/lights/move_lights.h"
+#include "host/stages/lights/prepare_lights.h"
+#include "host/stages/lists/build_clusters.h"
+#include "host/stages/lists/count_pairs.h"
+#include "host/stages/surfaces/build_mips.h"
+
 namespace kilolux {
 namespace {
 
 // Tunings are measured with thousands of lights. With a million a GPU hides the waits of a chunk's
 // walk behind other chunks, so it gets this many times as many.
 constexpr int kManyLights = 8;
+
+// Begins to build programs that most pictures need, whatever the scene. The cache keeps them; one
+// that is missing here is built later.
+void build_ahead(const Gpu& gpu, const Tuning& tuning) {
+    DriftLights(gpu, tuning);
+    MoveLights(gpu, tuning);
+    BuildMips(gpu, tuning);
+    PrepareLights(gpu, tuning);
+    BuildClusters{gpu};
+    CountPairs(gpu, tuning);
+}
 
 }  // namespace
 
@@ -33,6 +51,13 @@ Gpu device_for(const RenderSettings& settings, const Gpu& opened) {
     gpu.info = describe(gpu.device);  // KILOLUX_DEVICE_KIND may have changed
     gpu.info.lane_width = choose_tuning(gpu.info, settings.kernels).lanes;
     return gpu;
+}
+
+std::future<Gpu> open_device_async(const RenderSettings& settings) {
+    return open_gpu_async(settings.device, [settings](const Gpu& opened) {
+        const Gpu gpu = device_for(settings, opened);
+        build_ahead(gpu, choose_tuning(gpu.info, settings.kernels).tuning);
+    });
 }
 
 }  // namespace kilolux

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <future>
+
 #include "host/gpu/tuning/tuning_store.h"
 #include "host/render/settings.h"
 
@@ -15,5 +17,9 @@ Gpu open_device(const RenderSettings& settings);
 
 /// The same of an open device.
 Gpu device_for(const RenderSettings& settings, const Gpu& opened);
+
+/// Opens the device of the settings in a thread of its own, and begins to build programs that do
+/// not depend on the scene. See open_gpu_async().
+std::future<Gpu> open_device_async(const RenderSettings& settings);
 
 }  // namespace kilolux

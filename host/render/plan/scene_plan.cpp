@@ -9,6 +9,7 @@
 #include "host/scene/lights/light_kinds.h"
 #include "host/scene/lights/light_region.h"
 #include "host/scene/lights/light_tree.h"
+#include "host/scene/material_table.h"
 
 namespace kilolux {
 namespace {
@@ -43,16 +44,19 @@ using F = SceneFeatures;
 struct MaterialFeature {
     bool F::*member;
     bool (*needs)(const Material& m);
-    bool glossy = false;  // only where surfaces reflect
+    int model = SHADING_LAMBERT;  // the first one that reads it
 };
 
 constexpr MaterialFeature kMaterialFeatures[] = {
-    {&F::metallic, [](const Material& m) { return !m.unlit && m.metallic > 0.0f; }, true},
+    {&F::metallic, [](const Material& m) { return !m.unlit && m.metallic > 0.0f; },
+     SHADING_BLINN_PHONG},
     {&F::emissive, [](const Material& m) { return largest_emission(m) > 0.0f; }},
     {&F::occlusion, [](const Material& m) { return m.occlusion_texture.present(); }},
-    {&F::specular, [](const Material& m) { return !m.unlit && has_own_reflectance(m); }, true},
+    {&F::specular, [](const Material& m) { return !m.unlit && has_own_reflectance(m); },
+     SHADING_BLINN_PHONG},
+    {&F::clearcoat, [](const Material& m) { return !m.unlit && m.clearcoat > 0.0f; }, SHADING_PBR},
     {&F::unlit_materials, [](const Material& m) { return m.unlit; }},
-    {&F::normal_maps, [](const Material& m) { return m.normal_texture.present(); }},
+    {&F::normal_maps, [](const Material& m) { return tangent_map(m).present(); }},
     {&F::alpha_mask, [](const Material& m) { return m.alpha_mode == AlphaMode::mask; }},
     {&F::alpha_blend, [](const Material& m) { return m.alpha_mode == AlphaMode::blend; }},
 };
@@ -77,10 +81,11 @@ int shading_of(const RenderSettings& settings, const std::vector<Material>& mate
 }
 
 // The features that the pictures need of those that the scene has, and the forced ones.
-SceneFeatures needed(SceneFeatures out, bool glossy, const RenderSettings& settings) {
+SceneFeatures needed(SceneFeatures out, int shading, const RenderSettings& settings) {
+    const bool glossy = shading != SHADING_LAMBERT;
     out.gloss = glossy || settings.want.whole_surfaces();
     for (const MaterialFeature& feature : kMaterialFeatures) {
-        out.*feature.member &= glossy || !feature.glossy;
+        out.*feature.member &= shading >= feature.model;
     }
     out.unlit = glossy && out.unlit_materials;
     out.occlusion &= settings.ambient > 0.0f;
@@ -129,7 +134,7 @@ ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings,
         }
         features.wide_light_index = light_count + 2 * in_tree > 65536;
     }
-    features = needed(features, shading != SHADING_LAMBERT, settings);
+    features = needed(features, shading, settings);
     ScenePlan plan;
     static_cast<SceneFeatures&>(plan.kernels) = features;
     plan.kernels.shading = shading;

@@ -37,7 +37,7 @@ void share_lookup(const Material& material, const TextureTable& textures, Surfac
                         textures.rows()[out.textures[first]],
                         texture_use(material, static_cast<int>(use)),
                         textures.rows()[out.textures[use]])) {
-            out.flags |= MATERIAL_SHARES_LOOKUP << use;
+            out.lookup_shared |= 1u << use;
         }
     }
 }
@@ -88,7 +88,7 @@ void add_mesh(SurfaceFeatures& out, const Scene& scene, const Mesh& mesh, uint u
 }  // namespace
 
 bool reads_use(const Scene& scene, const Mesh& mesh, int use) {
-    if (use == USE_NORMAL && mesh.tangents.empty()) return false;
+    if ((TANGENT_USES & (1u << use)) != 0 && mesh.tangents.empty()) return false;
     return texture_use(material_of(scene, mesh), use).present();
 }
 

@@ -19,21 +19,27 @@ constexpr InstructionCounts kHalfVector = {7.0};
 // logarithm 12, product 1, exponential 13.
 constexpr InstructionCounts kPowOfCos2 = {36.0, 0.0, 0.0, 1.0};
 
+// n x h 6, its square 3, GGX 2; Smith 2 and a square root 1, both 2; h^4 1, lobe 3 and a
+// division 1.
+constexpr InstructionCounts kGgx = {21.0, 0.0, 1.0, 1.0};
+
 InstructionCounts blinn_phong_instructions() {
     // n.h 3 and its square 1, n x h 6 and its square 3, none from behind 2; weight 1.
     return kHalfVector + InstructionCounts{16.0} + kPowOfCos2 + 2.0 * kAddScaled;
 }
 
 InstructionCounts pbr_instructions(const KernelFeatures& kernels) {
-    // n x h 6, its square 3, GGX 2; Smith 2 and a square root 1, both 2; h^4 1, lobe 3 and a
-    // division 1; Schlick 3, inverse root 1, 2 + 3, 1 - f 1.
-    const InstructionCounts lobe = {31.0, 1.0, 1.0, 1.0};
+    // Schlick 3, inverse root 1, 2 + 3, 1 - f 1.
+    const InstructionCounts lobe = kGgx + InstructionCounts{10.0, 1.0};
     // Diffuse weight 1; specular weight 2, or 2 a channel where reflectance varies; 2 more where it
     // does so at grazing angles.
     const bool varies = kernels.metallic || kernels.specular;
     const InstructionCounts sums =
         2.0 * kAddScaled + InstructionCounts{(varies ? 7.0 : 3.0) + (kernels.specular ? 2.0 : 0.0)};
-    return kHalfVector + lobe + sums;
+    InstructionCounts work = kHalfVector + lobe + sums;
+    // n.l 3 + 1 + 1, falloff 1; the lobe without Schlick's 10 but with its own weight.
+    if (kernels.clearcoat) work = work + InstructionCounts{6.0} + kGgx + kAddScaled;
+    return work;
 }
 
 InstructionCounts incident_instructions(const KernelFeatures& kernels) {

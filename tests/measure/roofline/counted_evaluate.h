@@ -7,6 +7,7 @@
 #undef KILOLUX_SHARED_POWER_H
 #undef KILOLUX_SHARED_SURFACE_H
 #undef F0_VARIES
+#undef HAS_COAT
 #undef EARLY_OUT
 namespace COUNTED {
 using namespace counting;
@@ -24,14 +25,15 @@ inline ShadingPoint some_point() {
     Surface surface{};
     surface.position = {fv(0.1f), fv(0.2f), fv(-3.0f)};
     surface.normal = normal;
-    surface.roughness = fv(0.5f);
+    surface.roughness = surface.coat_roughness = fv(0.5f);
+    surface.coat_normal = normal;
     return make_shading_point(surface, false);
 }
 
 // A sum in progress: adding to it counts.
 inline LightSum some_sum() {
     LightSum sum = zero_sum();
-    for (FV3* part : {&sum.diffuse, &sum.specular})
+    for (FV3* part : {&sum.diffuse, &sum.specular, &sum.coat})
         for (FV* component : {&part->x, &part->y, &part->z}) component->varies = true;
     return sum;
 }

@@ -9,6 +9,7 @@
 
 #define HAS_METALLIC 0
 #define HAS_SPECULAR 0
+#define HAS_CLEARCOAT 0
 #define HAS_SPOT_LIGHTS 0
 #define SHADING SHADING_LAMBERT
 #define COUNTED lambert
@@ -53,6 +54,10 @@
 #define HAS_SPOT_LIGHTS 1
 #define COUNTED pbr_specular_spots
 #include "tests/measure/roofline/counted_evaluate.h"
+#undef HAS_CLEARCOAT
+#define HAS_CLEARCOAT 1
+#define COUNTED pbr_specular_coat_spots
+#include "tests/measure/roofline/counted_evaluate.h"
 
 namespace {
 
@@ -66,7 +71,7 @@ struct Case {
     InstructionCounts (*count_directional)();
     struct {
         int shading;
-        bool metallic = false, specular = false, spots = false;
+        bool metallic = false, specular = false, spots = false, clearcoat = false;
     } of;
 
     kilolux::KernelFeatures features() const {
@@ -74,6 +79,7 @@ struct Case {
         features.shading = of.shading;
         features.metallic = of.metallic;
         features.specular = of.specular;
+        features.clearcoat = of.clearcoat;
         features.spot_lights = of.spots;
         return features;
     }
@@ -94,6 +100,8 @@ const Case kCases[] = {
     CASE(pbr_metallic_spots, .shading = SHADING_PBR, .metallic = true, .spots = true),
     CASE(pbr_specular, .shading = SHADING_PBR, .specular = true),
     CASE(pbr_specular_spots, .shading = SHADING_PBR, .specular = true, .spots = true),
+    CASE(pbr_specular_coat_spots, .shading = SHADING_PBR, .specular = true, .spots = true,
+         .clearcoat = true),
     CASE(pbr_metallic_specular, .shading = SHADING_PBR, .metallic = true, .specular = true),
 };
 #undef CASE

@@ -28,6 +28,11 @@ kernel void probe(global const float* in, uint count, global const ShadeLight* l
     s.specular = fv3(VALUE(15), VALUE(16), VALUE(17));
     s.specular_f90 = VALUE(18);
 #endif
+#if HAS_CLEARCOAT
+    s.coat = VALUE(19);
+    s.coat_roughness = VALUE(20);
+    s.coat_normal = fv3(VALUE(21), VALUE(22), VALUE(23));
+#endif
     ShadingPoint p = make_shading_point(s, orthographic != 0);
     LightSum sum = zero_sum();
     for (uint k = 0; k < directional_count; ++k) sum = evaluate_directional(sum, p, directional[k]);
@@ -36,7 +41,7 @@ kernel void probe(global const float* in, uint count, global const ShadeLight* l
         for (uint k = first; k < min(first + (1u << SUM_BLOCK_LOG2), light_count); ++k) block = evaluate(block, p, lights[k]);
         sum = add_sums(sum, block);
     }
-    FV3 color = finish_shading(s, sum, ambient);
+    FV3 color = finish_shading(s, p, sum, ambient);
     lane_store(color.x, out + i);
     lane_store(color.y, out + count + i);
     lane_store(color.z, out + 2 * count + i);
@@ -54,10 +59,12 @@ kernel void probe(global const float* cos2, global const float* sin2, global con
 )";
 
 std::vector<float> rows_of(const SurfaceD& s) {
-    const double values[] = {s.position.x, s.position.y, s.position.z, s.normal.x,    s.normal.y,
-                             s.normal.z,   s.albedo.x,   s.albedo.y,   s.albedo.z,    s.emissive.x,
-                             s.emissive.y, s.emissive.z, s.roughness,  s.metallic,    s.occlusion,
-                             s.specular.x, s.specular.y, s.specular.z, s.specular_f90};
+    const double values[] = {s.position.x,     s.position.y,    s.position.z,    s.normal.x,
+                             s.normal.y,       s.normal.z,      s.albedo.x,      s.albedo.y,
+                             s.albedo.z,       s.emissive.x,    s.emissive.y,    s.emissive.z,
+                             s.roughness,      s.metallic,      s.occlusion,     s.specular.x,
+                             s.specular.y,     s.specular.z,    s.specular_f90,  s.coat,
+                             s.coat_roughness, s.coat_normal.x, s.coat_normal.y, s.coat_normal.z};
     std::vector<float> rows;
     for (const double value : values) rows.push_back(static_cast<float>(value));
     return rows;
@@ -72,7 +79,10 @@ SurfaceD surface_of(const std::vector<float>& r) {
             r[13],
             r[14],
             {r[15], r[16], r[17]},
-            r[18]};
+            r[18],
+            r[19],
+            r[20],
+            {r[21], r[22], r[23]}};
 }
 
 template <typename T>
@@ -87,7 +97,7 @@ ProbeResult probe_evaluate(const std::vector<SurfaceD>& surfaces, const Lighting
     const Gpu gpu = test_gpu(lanes);
     const std::size_t count = round_up(surfaces.size(), 16);
     ProbeResult result;
-    std::vector<float> in(19 * count, 0.5f);
+    std::vector<float> in(24 * count, 0.5f);
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
         const std::vector<float> rows = rows_of(surfaces[i]);
         for (std::size_t row = 0; row < rows.size(); ++row) in[row * count + i] = rows[row];
@@ -97,6 +107,7 @@ ProbeResult probe_evaluate(const std::vector<SurfaceD>& surfaces, const Lighting
                                      .define("SHADING", lighting.shading)
                                      .define("HAS_METALLIC", 1)
                                      .define("HAS_SPECULAR", 1)
+                                     .define("HAS_CLEARCOAT", lighting.clearcoat ? 1 : 0)
                                      .define("HAS_SPOT_LIGHTS", 1);
     const auto found =
         run_probe<float>(gpu, {kEvaluateHeaders, kEvaluateProbe, options}, count / lanes_of(gpu),

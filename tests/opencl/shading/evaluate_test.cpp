@@ -65,6 +65,17 @@ SurfaceD random_surface(Random& random, double roughness_min) {
     return s;
 }
 
+// With a coat whose normal is near the surface's.
+SurfaceD coated_surface(Random& random, double roughness_min) {
+    SurfaceD s = random_surface(random, roughness_min);
+    s.coat = random.below(3) * 0.5;
+    s.coat_roughness = random.uniform(roughness_min, 1);
+    do {
+        s.coat_normal = glm::normalize(s.normal + 0.5 * random.direction());
+    } while (s.coat_normal.z < 0 || dot(s.coat_normal, s.position) > 0);
+    return s;
+}
+
 TEST(Evaluate, AgreesWithDoubleForPointSpotAndDirectionalLights) {
     Random random(21);
     std::vector<ShadeLight> lights;
@@ -80,6 +91,7 @@ TEST(Evaluate, AgreesWithDoubleForPointSpotAndDirectionalLights) {
         {{0.6f, 0.64f, 0.48f, 0.0f}, {1.0f, 0.9f, 0.8f, 0.0f}}};
     std::vector<SurfaceD> surfaces;
     for (int i = 0; i < 3000; ++i) surfaces.push_back(random_surface(random, 0.3));
+    for (int i = 0; i < 3000; ++i) surfaces.push_back(coated_surface(random, 0.3));
     for (const int shading : kShadings) {
         for (const bool orthographic : {false, true}) {
             const Lighting all{lights, sun, 0.1, orthographic, shading};
@@ -210,26 +222,83 @@ std::vector<SurfaceD> lobe_sweep(double roughness) {
     return surfaces;
 }
 
-void expect_lobe(int shading, double roughness, double tolerance) {
+void expect_lobe(const std::vector<SurfaceD>& sweep, int shading, double tolerance) {
     const std::vector<ShadeLight> lights = {light_at({1e-3, 0, 0}, 50, {1, 1, 1})};
     const Lighting lighting{lights, {}, 0, false, shading};
-    const ProbeResult found = probe_evaluate(lobe_sweep(roughness), lighting);
+    const ProbeResult found = probe_evaluate(sweep, lighting);
     double peak = 0;
     for (const SurfaceD& s : found.surfaces)
         peak = std::max(peak, reference_radiance(s, lighting).value.x);
     for (std::size_t i = 0; i < found.radiance.size(); ++i) {
         const double expected = reference_radiance(found.surfaces[i], lighting).value.x;
         ASSERT_NEAR(found.radiance[i].x / peak, expected / peak, tolerance)
-            << "roughness " << roughness << ", sample " << i;
+            << "roughness " << sweep[i].roughness << ", sample " << i;
     }
 }
 
 TEST(Evaluate, SpecularPeaksKeepTheirShape) {
     // Roughness 0 is clamped to 0.045, alpha 0.002. Exponents: 0.119 gives 1e4.
     for (const double roughness : {0.0, 0.045, 0.06, 0.1, 0.3, 0.6, 1.0})
-        expect_lobe(SHADING_PBR, roughness, 5e-5);
+        expect_lobe(lobe_sweep(roughness), SHADING_PBR, 5e-5);
     for (const double roughness : {0.119, 0.2, 0.5, 1.0})
-        expect_lobe(SHADING_BLINN_PHONG, roughness, 1e-5);
+        expect_lobe(lobe_sweep(roughness), SHADING_BLINN_PHONG, 1e-5);
+}
+
+// The same sweep of a coat over a black surface that reflects nothing itself.
+TEST(Evaluate, PeaksOfCoatsKeepTheirShape) {
+    for (const double roughness : {0.0, 0.045, 0.1, 0.3, 1.0}) {
+        std::vector<SurfaceD> surfaces = lobe_sweep(roughness);
+        for (SurfaceD& s : surfaces) {
+            s.coat = 1;
+            s.coat_roughness = roughness;
+            s.coat_normal = s.normal;
+            s.normal = {0, 0, 1};
+            s.albedo = s.specular = {};
+            s.specular_f90 = s.metallic = 0;
+            s.roughness = 1;
+        }
+        expect_lobe(surfaces, SHADING_PBR, 5e-5);
+    }
+}
+
+TEST(Evaluate, CoatsSeenAtGrazingAnglesStayAccurate) {
+    std::vector<SurfaceD> surfaces;
+    for (const double cosine : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 0.0}) {
+        SurfaceD s;
+        s.position = {0, 0, -3};
+        s.normal = s.coat_normal = {std::sqrt(1 - cosine * cosine), 0, cosine};
+        s.coat = 1;
+        s.coat_roughness = 0.4;
+        surfaces.push_back(s);
+    }
+    const std::vector<ShadeLight> lights = {light_at({2, 0.5, -4}, 50, {1, 2, 3})};
+    EXPECT_LE(worst_error(surfaces, {lights, {}, 0.1, false, SHADING_PBR}), kEvaluateTolerance);
+}
+
+// A factor of 0 changes no bit, also where the coat's lobe overflows.
+TEST(Evaluate, CoatsOfNoFactorChangeNoBit) {
+    Random random(23);
+    std::vector<SurfaceD> surfaces;
+    for (int i = 0; i < 500; ++i) {
+        surfaces.push_back(random_surface(random, 0.3));
+        surfaces.back().coat_roughness = 0;
+        // At the peak of the first light.
+        const glm::dvec3 p = surfaces.back().position;
+        surfaces.back().coat_normal =
+            glm::normalize(glm::normalize(glm::dvec3(0.1, 0.2, 0.3) - p) - glm::normalize(p));
+    }
+    for (const double intensity : {1.0, 1e35}) {
+        const std::vector<ShadeLight> lights = {
+            light_at({0.1, 0.2, 0.3}, 90, glm::dvec3(1, 2, 3) * intensity),
+            light_at({3, 2, -5}, 90, glm::dvec3(1, 2, 3) * intensity)};
+        Lighting lighting{lights, {}, 0.1, false, SHADING_PBR};
+        const ProbeResult with = probe_evaluate(surfaces, lighting);
+        lighting.clearcoat = false;
+        const ProbeResult without = probe_evaluate(surfaces, lighting);
+        for (std::size_t i = 0; i < surfaces.size(); ++i) {
+            ASSERT_EQ(with.radiance[i], without.radiance[i]) << i << ", intensity " << intensity;
+        }
+    }
 }
 
 TEST(Evaluate, PowersOfCosinesAreAccurateAtAnyExponent) {

@@ -73,6 +73,7 @@ KernelFeatures full_features(int shading) {
     KernelFeatures features;
     features.shading = shading;
     features.material = features.metallic = features.occlusion = features.specular = true;
+    features.clearcoat = true;
     features.spot_lights = features.directional_lights = true;
     return features;
 }
@@ -100,13 +101,16 @@ SurfaceD surface_at(const Planes& planes, uint x, uint y) {
     s.specular = planes.vector(SURFACE_SPECULAR, x, y);
     s.specular_f90 = planes.at(SURFACE_SPECULAR_F90, x, y);
     s.occlusion = planes.at(SURFACE_OCCLUSION, x, y);
+    s.coat = planes.at(SURFACE_COAT, x, y);
+    s.coat_roughness = planes.at(SURFACE_COAT_ROUGHNESS, x, y);
+    s.coat_normal = planes.vector(SURFACE_COAT_NORMAL, x, y);
     return s;
 }
 
 // Lobes narrower than roughness 0.3 and normals away from the eye are evaluate_test.cpp's subject.
 bool is_well_conditioned(const SurfaceD& s, bool orthographic) {
     const glm::dvec3 eye = orthographic ? glm::dvec3{0, 0, 1} : s.position * -1.0;
-    return s.roughness >= 0.3 && dot(s.normal, eye) > 0;
+    return std::min(s.roughness, s.coat_roughness) >= 0.3 && dot(s.normal, eye) > 0;
 }
 
 void expect_as_double(const FrameInput& in) {

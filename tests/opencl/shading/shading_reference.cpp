@@ -51,6 +51,26 @@ glm::dvec3 gltf_brdf(const SurfaceD& s, glm::dvec3 n, glm::dvec3 v, glm::dvec3 l
             channel(s.albedo.z, s.specular.z)};
 }
 
+// glTF 2.0 appendix B.3.2, specular_brdf(): V D in fractions, as the text writes them.
+double specular_brdf(glm::dvec3 n, double roughness, glm::dvec3 v, glm::dvec3 l) {
+    const double a2 = alpha_of(roughness) * alpha_of(roughness);
+    const glm::dvec3 h = glm::normalize(l + v);
+    const double nl = std::max(dot(n, l), 0.0), nv = std::max(dot(n, v), kSmallestNdotV);
+    // 1 - (n.h)^2 cancels at the peak of a narrow lobe.
+    const double d = a2 + (1 - a2) * dot(cross(n, h), cross(n, h));
+    const double over =
+        nl * std::sqrt(a2 + (1 - a2) * nv * nv) + nv * std::sqrt(a2 + (1 - a2) * nl * nl);
+    return a2 / (std::numbers::pi * d * d) * 0.5 / over;
+}
+
+// KHR_materials_clearcoat, "Layering": coated_material = fresnel_coat(normal, ior = 1.5, weight,
+// base, layer) = mix(base, layer, weight * (f0 + (1 - f0) (1 - |N.V|)^5)).
+double coat_weight(const SurfaceD& s, glm::dvec3 v) {
+    const double f0 = std::pow((1 - 1.5) / (1 + 1.5), 2);
+    const double nv = std::max(dot(glm::normalize(s.coat_normal), v), kSmallestNdotV);
+    return s.coat * (f0 + (1 - f0) * std::pow(std::max(1 - nv, 0.0), 5));
+}
+
 glm::dvec3 blinn_phong_brdf(const SurfaceD& s, glm::dvec3 n, glm::dvec3 v, glm::dvec3 l) {
     const double exponent = 2 / std::pow(alpha_of(s.roughness), 2) - 2;
     const double nh = std::max(dot(n, glm::normalize(l + v)), 0.0);
@@ -81,12 +101,20 @@ ReferenceRadiance reference_radiance(const SurfaceD& s, const Lighting& lighting
     const glm::dvec3 n = glm::normalize(s.normal);
     const glm::dvec3 eye =
         lighting.orthographic ? glm::dvec3{0, 0, 1} : glm::normalize(s.position * -1.0);
+    const glm::dvec3 coat_normal = glm::normalize(s.coat_normal);
+    const double weight = lighting.shading == SHADING_PBR ? coat_weight(s, eye) : 0;
     ReferenceRadiance sum;
     const auto add = [&](glm::dvec3 l, glm::dvec3 strength) {
         sum.scale += std::max({strength.x, strength.y, strength.z});
-        const double nl = dot(n, l);
-        if (nl <= 0 || strength.x + strength.y + strength.z == 0) return;
-        sum.value = sum.value + brdf(lighting.shading, s, n, eye, l) * strength * nl;
+        if (strength.x + strength.y + strength.z == 0) return;
+        const double nl = dot(n, l), coat_nl = dot(coat_normal, l);
+        if (nl > 0) {
+            sum.value += brdf(lighting.shading, s, n, eye, l) * strength * nl * (1 - weight);
+        }
+        if (coat_nl > 0 && weight > 0) {
+            sum.value += strength *
+                         (coat_nl * weight * specular_brdf(coat_normal, s.coat_roughness, eye, l));
+        }
     };
     for (const DirectionalLight& light : lighting.directional)
         add(dvec3_of(light.to_light), dvec3_of(light.color));
@@ -99,7 +127,9 @@ ReferenceRadiance reference_radiance(const SurfaceD& s, const Lighting& lighting
         const double falloff = clamp01(1 - ratio4) / (d * d) * cone_of(light, to_light);
         add(to_light, dvec3_of(light.color_scale) * falloff);
     }
-    sum.value = sum.value + s.albedo * (lighting.ambient * s.occlusion) + s.emissive;
+    const glm::dvec3 own = s.albedo * (lighting.ambient * s.occlusion) + s.emissive;
+    sum.value += own * (1 - weight);
+    sum.scale += weight * std::max({own.x, own.y, own.z});  // what the coat takes away
     return sum;
 }
 

@@ -17,6 +17,8 @@ struct SurfaceD {
     double roughness = 1, metallic = 0, occlusion = 1;
     glm::dvec3 specular{0.04, 0.04, 0.04};  // reflectance of the dielectric part head on
     double specular_f90 = 1;                // and at grazing angles
+    double coat = 0, coat_roughness = 1;    // KHR_materials_clearcoat
+    glm::dvec3 coat_normal{0.0, 0.0, 1.0};  // any length
 };
 
 /// The lights and the view of a surface.
@@ -25,7 +27,8 @@ struct Lighting {
     std::span<const DirectionalLight> directional;
     double ambient = 0;
     bool orthographic = false;
-    int shading = 0;  // SHADING_*
+    int shading = 0;        // SHADING_*
+    bool clearcoat = true;  // compiled in
 };
 
 struct ReferenceRadiance {

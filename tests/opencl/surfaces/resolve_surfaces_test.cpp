@@ -44,8 +44,8 @@ SurfaceMaterial quad_material() {
     for (uint& texture : out.textures) texture = SURFACE_ABSENT;
     out.textures[USE_BASE_COLOR] = out.textures[USE_NORMAL] = 0;
     out.lookup_use = USE_BASE_COLOR;
-    out.flags = MATERIAL_SHARES_LOOKUP << USE_BASE_COLOR | MATERIAL_SHARES_LOOKUP << USE_NORMAL |
-                MATERIAL_MASKED;
+    out.lookup_shared = 1u << USE_BASE_COLOR | 1u << USE_NORMAL;
+    out.flags = MATERIAL_MASKED;
     out.row.emissive_cutoff.w = 0.5f;  // texels' alpha is 1
     return out;
 }
@@ -248,6 +248,7 @@ TEST(ResolveSurfaces, EachTextureIsReadAtItsOwnTexcoords) {
     SurfaceFeatures features = quad_features(1);
     const auto planes_with = [&](uint flags) {
         SurfaceMaterial material = quad_material();
+        material.lookup_shared = 0u;
         material.flags = flags;
         return decoded(gpu, resolve_quad(gpu, GBUFFER_FULL, features, material));
     };

@@ -93,6 +93,22 @@ Scene mapped_scene() {
     return scene;
 }
 
+Scene coated_scene() {
+    Scene scene = mapped_scene();
+    for (Material& m : scene.materials) {
+        // Both do not fit into the targets that OpenGL draws `full` to.
+        m.specular_texture = m.specular_color_texture = {};
+        m.specular = 1.0f;
+        m.clearcoat_texture = add_noise(scene, 64, trilinear(Wrap::repeat), 8);
+        m.clearcoat = 0.9f;
+        m.clearcoat_roughness_texture = add_noise(scene, 64, trilinear(Wrap::repeat), 9);
+        m.clearcoat_roughness = 0.7f;
+        m.clearcoat_normal_texture = add_noise(scene, 64, trilinear(Wrap::repeat), 10, 192);
+        m.clearcoat_normal_scale = 0.2f;
+    }
+    return scene;
+}
+
 Scene mapped_scene_with_other_filters() {
     Scene scene = mapped_scene();
     for (std::size_t i = 0; i < scene.textures.size(); ++i) {

@@ -8,10 +8,13 @@
 namespace kilolux {
 
 /// Hills, hung over by others that are scaled unevenly, mirrored, cut by alpha and seen from below.
-/// Their materials have every map, of different samplers, sets and transforms.
+/// Their materials have every map but those of coats, of different samplers, sets and transforms.
 Scene mapped_scene();
 
-/// The same with nearest texels and levels, and textures without mipmaps.
+/// The same under clear coats with maps of their own.
+Scene coated_scene();
+
+/// mapped_scene() with nearest texels and levels, and textures without mipmaps.
 Scene mapped_scene_with_other_filters();
 
 /// Sees the hills.

@@ -166,6 +166,10 @@ TEST(Ways, MakeTheSameSurfacesOfEveryMap) {
     expect_one_surface(mapped_scene(), hill_camera(), way_settings());
 }
 
+TEST(Ways, MakeTheSameSurfacesUnderCoats) {
+    expect_one_surface(coated_scene(), hill_camera(), way_settings());
+}
+
 // Nearest texels and levels, no mipmaps, and several samples a pixel.
 TEST(Ways, MakeTheSameSurfacesWithOtherFilters) {
     RenderSettings settings = way_settings();

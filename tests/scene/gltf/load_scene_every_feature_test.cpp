@@ -77,7 +77,8 @@ TEST_F(LoadSceneEveryFeature, MaterialsHaveAllSlotsAndFactors) {
     for (const TextureUse* use :
          {&all.base_color_texture, &all.metallic_roughness_texture, &all.normal_texture,
           &all.occlusion_texture, &all.emissive_texture, &all.specular_texture,
-          &all.specular_color_texture}) {
+          &all.specular_color_texture, &all.clearcoat_texture, &all.clearcoat_roughness_texture,
+          &all.clearcoat_normal_texture}) {
         EXPECT_TRUE(use->present());
     }
     EXPECT_EQ(all.base_color, glm::vec4(0.5f, 0.25f, 1.0f, 0.75f));
@@ -94,6 +95,10 @@ TEST_F(LoadSceneEveryFeature, MaterialsHaveAllSlotsAndFactors) {
     EXPECT_EQ(all.specular_color, glm::vec3(1.0f, 0.5f, 2.0f));
     EXPECT_EQ(all.specular_texture.uv_from_texcoord[2].x, 0.5f);
     EXPECT_EQ(all.specular_color_texture.uv_set, 1);
+    EXPECT_EQ(all.clearcoat, 0.75f);
+    EXPECT_EQ(all.clearcoat_roughness, 0.125f);
+    EXPECT_EQ(all.clearcoat_normal_scale, 0.5f);
+    EXPECT_EQ(all.clearcoat_roughness_texture.uv_set, 1);
     EXPECT_NE(all.normal_texture.uv_from_texcoord[0].y, 0.0f) << "rotated";
     const Sampler& sampler =
         scene_.textures.at(static_cast<std::size_t>(all.base_color_texture.texture)).sampler;

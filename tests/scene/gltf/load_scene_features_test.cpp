@@ -123,6 +123,20 @@ TEST(LoadSceneFeatures, TextureTransformsScaleThenRotateThenShift) {
     EXPECT_EQ(load(file).materials.at(0).normal_texture.uv_from_texcoord, glm::mat3(1.0f));
 }
 
+// Tangents come from the normal map's coordinates, else from those of the coat's.
+TEST(LoadSceneFeatures, ANormalMapOfACoatHasTangents) {
+    GltfBuilder file = quad_with_normal_map();
+    json& material = file.root["materials"][0];
+    const json map = material["normalTexture"];
+    material["extensions"]["KHR_materials_clearcoat"]["clearcoatNormalTexture"] = map;
+    const std::vector<glm::vec4> usual = load(file).meshes.at(0).tangents;
+    EXPECT_EQ(usual.size(), 4u);
+    material.erase("normalTexture");
+    EXPECT_EQ(load(file).meshes.at(0).tangents, usual);
+    material.erase("extensions");
+    EXPECT_TRUE(load(file).meshes.at(0).tangents.empty());
+}
+
 // The output of gltfpack: all attributes in small integers, scaled by the texture's transform.
 TEST(LoadSceneFeatures, QuantizedAttributesOfAllKinds) {
     GltfBuilder file = quad_with_normal_map();
