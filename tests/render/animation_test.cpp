@@ -187,34 +187,35 @@ TEST(Animation, MaterialsThatAClipDrivesReachEveryRenderer) {
     }
 }
 
-// Node 0 is the quad with the normal map; the last one the only spot light.
+// Node 0 is the quad with the normal map, the last one the only spot light.
+GltfBuilder file_with_shown_nodes(bool visible, bool moves) {
+    GltfBuilder file = file_with_flap(FoldedBy::morph_target, 0.0f, false);
+    json& lights = file.root["extensions"]["KHR_lights_punctual"]["lights"];
+    lights.push_back({{"type", "spot"}, {"intensity", 50}, {"range", 20}});
+    const int lamp = file.add_node(
+        {{"translation", {0, 0, 2}}, {"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}});
+    const int times = file.add_floats("SCALAR", {0, 1});
+    const int output = file.add_floats("SCALAR", {0, 1});
+    json clip = {{"samplers", {{{"input", times}, {"output", output}, {"interpolation", "STEP"}}}}};
+    for (const int node : {0, lamp}) {
+        const std::string pointer =
+            "/nodes/" + std::to_string(node) + "/extensions/KHR_node_visibility/visible";
+        file.root[json::json_pointer(pointer)] = visible;
+        const json extension = {{"KHR_animation_pointer", {{"pointer", pointer}}}};
+        clip["channels"].push_back(
+            {{"sampler", 0}, {"target", {{"path", "pointer"}, {"extensions", extension}}}});
+    }
+    if (moves) file.add("animations", clip);
+    return file;
+}
+
 TEST(Animation, NodesThatAreHiddenAtFirstShowLater) {
-    const auto file_with = [](bool visible, bool moves) {
-        GltfBuilder file = file_with_flap(FoldedBy::morph_target, 0.0f, false);
-        json& lights = file.root["extensions"]["KHR_lights_punctual"]["lights"];
-        lights.push_back({{"type", "spot"}, {"intensity", 50}, {"range", 20}});
-        const int lamp = file.add_node({{"translation", {0, 0, 2}},
-                                        {"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}});
-        const int times = file.add_floats("SCALAR", {0, 1});
-        const int output = file.add_floats("SCALAR", {0, 1});
-        json clip = {
-            {"samplers", {{{"input", times}, {"output", output}, {"interpolation", "STEP"}}}}};
-        for (const int node : {0, lamp}) {
-            const std::string pointer =
-                "/nodes/" + std::to_string(node) + "/extensions/KHR_node_visibility/visible";
-            file.root[json::json_pointer(pointer)] = visible;
-            const json extension = {{"KHR_animation_pointer", {{"pointer", pointer}}}};
-            clip["channels"].push_back(
-                {{"sampler", 0}, {"target", {{"path", "pointer"}, {"extensions", extension}}}});
-        }
-        if (moves) file.add("animations", clip);
-        return file;
-    };
     const TempFolder folder;
     const auto path = folder.path() / "shown.glb";
-    write_file(path, file_with(false, true).glb());
+    write_file(path, file_with_shown_nodes(false, true).glb());
     AnimatedScene moving(path, {});
-    const Scene stills[] = {load(file_with(false, false)), load(file_with(true, false))};
+    const Scene stills[] = {load(file_with_shown_nodes(false, false)),
+                            load(file_with_shown_nodes(true, false))};
     const Camera camera = frame_box(bounds(stills[1]));
     for (const RendererKind kind : {RendererKind::deferred, RendererKind::forward}) {
         RenderSettings settings = small_settings(64, 48, 0);

@@ -8,6 +8,7 @@
 #include "host/scene/gltf/animation.h"
 #include "host/scene/gltf/instancing.h"
 #include "host/scene/gltf/mesh/skin.h"
+#include "host/scene/material_table.h"
 
 namespace kilolux {
 namespace {
