@@ -36,6 +36,8 @@ void StageTimer::record(std::string_view stage, const cl::Event& event, bool is_
 }
 
 void StageTimer::record_build(Clock::time_point start, Clock::time_point end) {
+    if (end <= since_) return;
+    start = std::max(start, since_);
     builds_.push_back({ticks(start.time_since_epoch()), ticks(end.time_since_epoch())});
 }
 

@@ -154,15 +154,6 @@ TEST(Paths, ComputeDrawsAsIdsDo) {
     }
 }
 
-TEST(Paths, OpenGLDrawsWhereSurfacesBlend) {
-    RenderSettings settings = small_settings();
-    settings.geometry = Geometry::ids;
-    const Scene scene = with_glass();
-    const Frame ids = render_as(scene, settings, RendererKind::deferred);
-    settings.geometry = Geometry::compute;
-    expect_same_bits(ids, render_as(scene, settings, RendererKind::deferred));
-}
-
 TEST(Paths, ForwardPlusIsForwardBitForBit) {
     for (const Scene& scene : {make_generated_scene("grid"), grid_with_every_light()}) {
         const RenderSettings settings = small_settings();
