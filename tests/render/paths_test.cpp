@@ -142,7 +142,8 @@ TEST(Paths, DeferredIsDeferredAllBitForBit) {
 
 // OpenCL draws the same as OpenGL, but for pixels whose centre is next to an edge.
 TEST(Paths, ComputeDrawsAsIdsDo) {
-    for (const Scene& scene : {make_generated_scene("grid"), make_generated_scene("corridor")}) {
+    for (const Scene& scene :
+         {make_generated_scene("grid"), make_generated_scene("corridor"), with_glass()}) {
         RenderSettings settings = small_settings(192, 108);
         settings.geometry = Geometry::ids;
         const Frame ids = render_as(scene, settings, RendererKind::deferred);

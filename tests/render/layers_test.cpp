@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+// Surfaces that blend: their order, their light, and what they cost a scene without them.
+#include <algorithm>
+#include <random>
+
+#include "tests/support/render_fixture.h"
+
+namespace kilolux {
+namespace {
+
+constexpr int kWidth = 96, kHeight = 64;
+
+// A parallelogram around `center` with half its sides.
+struct Pane {
+    glm::dvec3 center, across, up;
+    glm::vec4 color;  // its light and alpha
+};
+
+void add_pane(Scene& scene, const Pane& pane, AlphaMode mode) {
+    Material material;
+    material.base_color = pane.color;
+    material.alpha_mode = mode;
+    material.unlit = true;
+    material.double_sided = true;
+    scene.materials.push_back(material);
+    Mesh mesh;
+    mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    mesh.normals.assign(4, {0, 0, 1});
+    mesh.indices = {0, 1, 2, 0, 2, 3};
+    mesh.material = static_cast<int>(scene.materials.size()) - 1;
+    scene.meshes.push_back(mesh);
+    const glm::dvec3 normal = glm::normalize(glm::cross(pane.across, pane.up));
+    glm::dmat4 place(1.0);
+    place[0] = glm::dvec4(pane.across, 0.0);
+    place[1] = glm::dvec4(pane.up, 0.0);
+    place[2] = glm::dvec4(normal, 0.0);
+    place[3] = glm::dvec4(pane.center, 1.0);
+    scene.instances.push_back({static_cast<int>(scene.meshes.size()) - 1, place});
+}
+
+// Panes of any direction around the origin, which cut each other.
+std::vector<Pane> random_panes(int count) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    const auto vector = [&] { return glm::dvec3(unit(random), unit(random), unit(random)); };
+    std::vector<Pane> panes;
+    while (static_cast<int>(panes.size()) < count) {
+        const Pane pane{0.7 * vector(), 1.5 * vector(), 1.5 * vector(),
+                        glm::vec4(0.5 + 0.5 * vector(), 0.5 + 0.4 * unit(random))};
+        if (glm::length(glm::cross(pane.across, pane.up)) > 0.3) panes.push_back(pane);
+    }
+    return panes;
+}
+
+// Where a ray meets a pane.
+struct PaneHit {
+    double distance;
+    glm::dvec4 color;
+    bool near_edge;
+};
+
+std::optional<PaneHit> hit_of(const Pane& pane, const glm::dvec3& from, const glm::dvec3& along) {
+    const glm::dvec3 s =
+        glm::inverse(glm::dmat3(pane.across, pane.up, -along)) * (from - pane.center);
+    constexpr double kEdge = 0.05;
+    if (s.z < 0.1 || std::max(std::abs(s.x), std::abs(s.y)) > 1.0 + kEdge) return {};
+    return PaneHit{s.z, pane.color, std::max(std::abs(s.x), std::abs(s.y)) > 1.0 - kEdge};
+}
+
+// What a ray sees; none near an edge, and where panes cut each other.
+std::optional<glm::dvec3> light_along(std::span<const Pane> panes, const glm::dvec3& from,
+                                      const glm::dvec3& along) {
+    std::vector<PaneHit> hits;
+    for (const Pane& pane : panes) {
+        if (const auto hit = hit_of(pane, from, along)) hits.push_back(*hit);
+    }
+    std::ranges::sort(hits, std::greater(), &PaneHit::distance);
+    glm::dvec3 light(0.0);
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        if (hits[i].near_edge) return {};
+        if (i > 0 && hits[i - 1].distance - hits[i].distance < 1e-4) return {};
+        light = glm::mix(light, glm::dvec3(hits[i].color), hits[i].color.w);
+    }
+    return light;
+}
+
+RenderSettings layer_settings(RendererKind kind = RendererKind::deferred) {
+    RenderSettings settings = small_settings(kWidth, kHeight, 0);
+    settings.gbuffer = GBUFFER_FULL;  // colours are floats
+    settings.renderer = kind;
+    return settings;
+}
+
+Camera pane_camera() { return look_at({0.3, 0.4, 5.0}, {0, 0, 0}, {0, 1, 0}, 0.7); }
+
+Scene scene_of(std::span<const Pane> panes) {
+    Scene scene;
+    scene.name = "panes";
+    // What the first pane hides, all of it.
+    for (std::size_t i = 0; i < panes.size(); ++i) {
+        add_pane(scene, panes[i], i == 0 ? AlphaMode::opaque : AlphaMode::blend);
+    }
+    return scene;
+}
+
+Frame render_panes(const Scene& scene, RenderSettings settings) {
+    return Renderer(scene, settings).render(pane_camera(), 0.0);
+}
+
+TEST(Layers, ThatCutEachOtherBlendFromFarToNear) {
+    std::vector<Pane> panes = random_panes(14);
+    panes[0].color.w = 1.0f;
+    for (const Geometry geometry : {Geometry::compute, Geometry::ids, Geometry::planes}) {
+        RenderSettings settings = layer_settings();
+        settings.geometry = geometry;
+        const Frame frame = render_panes(scene_of(panes), settings);
+        const Camera camera = pane_camera();
+        const View view = view_of(camera, kWidth, kHeight);
+        int compared = 0, several = 0;
+        for (int i = 0; i < kWidth * kHeight; ++i) {
+            const FV3 p = view_position(view, static_cast<float>(i % kWidth) + 0.5f,
+                                        static_cast<float>(i / kWidth) + 0.5f, 1.0f);
+            const glm::dvec3 along = camera.world_from_view * glm::dvec3(p.x, p.y, p.z);
+            const auto light = light_along(panes, camera.position, along);
+            if (!light) continue;
+            ++compared;
+            several += light->x > 0.0 ? 1 : 0;
+            for (int c = 0; c < 3; ++c) {
+                ASSERT_NEAR(
+                    frame.radiance[3 * static_cast<std::size_t>(i) + static_cast<std::size_t>(c)],
+                    (*light)[c], 1e-5)
+                    << "pixel " << i % kWidth << ", " << i / kWidth;
+            }
+        }
+        EXPECT_GT(compared, kWidth * kHeight / 3);
+        EXPECT_GT(several, kWidth * kHeight / 10);
+    }
+}
+
+TEST(Layers, InOnePlaneAllCount) {
+    const Pane pane{{0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {0.5f, 0.25f, 1.0f, 0.5f}};
+    Pane wall = pane;
+    wall.center.z = -1.0;
+    wall.color = {0, 0, 0, 1};
+    const std::vector<Pane> panes = {wall, pane, pane, pane};
+    const Frame frame = render_panes(scene_of(panes), layer_settings());
+    for (std::size_t i = 0; i < frame.radiance.size(); i += 3) {
+        ASSERT_FLOAT_EQ(frame.radiance[i], 0.875f * 0.5f);
+        ASSERT_FLOAT_EQ(frame.radiance[i + 1], 0.875f * 0.25f);
+        ASSERT_FLOAT_EQ(frame.radiance[i + 2], 0.875f);
+    }
+}
+
+// Sixty layers: there is no most.
+TEST(Layers, AreAsManyAsThereAreFragments) {
+    std::vector<Pane> panes;
+    double seen = 0.0;
+    for (int i = 0; i < 60; ++i) {
+        const double z = 0.05 * ((7 * i) % 60);
+        panes.push_back({{0, 0, z}, {9, 0, 0}, {0, 9, 0}, {1.0f, 1.0f, 1.0f, 0.02f}});
+        seen += i == 0 ? 0.0 : 0.02 * (1.0 - seen);
+    }
+    panes[0].color = {0, 0, 0, 1};
+    const Frame frame = render_panes(scene_of(panes), layer_settings());
+    for (const float value : frame.radiance) ASSERT_NEAR(value, seen, 1e-5);
+}
+
+// Panes in a lit room, with shadows of what is opaque, and a background.
+Scene lit_panes() {
+    Scene scene = make_generated_scene("grid");
+    scene.materials[0].alpha_mode = AlphaMode::blend;
+    scene.materials[0].base_color.w = 0.5f;
+    return scene;
+}
+
+TEST(Layers, DeferredIsDeferredAllBitForBit) {
+    const Scene scene = lit_panes();
+    for (const Shadows shadows : {Shadows::off, Shadows::exact}) {
+        RenderSettings settings = small_settings(kWidth, kHeight, 300);
+        settings.shadows = shadows;
+        settings.background =
+            std::make_shared<const Environment>(Environment{1, 1, {glm::vec3(0.3f)}});
+        const Frame lists = render_once(scene, settings);
+        settings.renderer = RendererKind::deferred_all;
+        const Frame all = render_once(scene, settings);
+        EXPECT_TRUE(lists.radiance == all.radiance);
+        settings.kernels.lanes = 1;
+        EXPECT_TRUE(render_once(scene, settings).radiance == all.radiance) << "one lane";
+    }
+}
+
+TEST(Layers, TakeNoStageOfASceneWithoutThem) {
+    const auto has = [](const Frame& frame, std::string_view stage) {
+        return std::ranges::any_of(frame.stats.stages,
+                                   [&](const StageTime& s) { return s.name == stage; });
+    };
+    const RenderSettings settings = small_settings(kWidth, kHeight, 10);
+    EXPECT_FALSE(has(render_once(make_generated_scene("grid"), settings), "raster_layers"));
+    EXPECT_TRUE(has(render_once(lit_panes(), settings), "raster_layers"));
+}
+
+}  // namespace
+}  // namespace kilolux
