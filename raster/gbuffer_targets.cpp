@@ -132,10 +132,10 @@ int largest_target() {
 void check_target_size(int width, int height) {
     const int largest = largest_target();
     if (width >= 1 && height >= 1 && width <= largest && height <= largest) return;
-    throw Error(fmt::format(
-        "resolution {}x{} pixels: this OpenGL draws 1 to {} a side; where nothing blends, OpenCL "
-        "draws more (--renderer deferred --geometry compute)",
-        width, height, largest));
+    throw Error(
+        fmt::format("resolution {}x{} pixels: this OpenGL draws 1 to {} a side; OpenCL draws more "
+                    "(--renderer deferred --geometry compute)",
+                    width, height, largest));
 }
 
 namespace {

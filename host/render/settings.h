@@ -111,8 +111,8 @@ struct RenderSettings {
     float ambient = 0.02f;  // radiance that falls in from everywhere
     // Seen where no surface covers a pixel; null: black. It lights no surface.
     std::shared_ptr<const Environment> background;
-    // Lights surfaces by prefiltered maps, beside all other lights; null: nothing. Blended surfaces
-    // and the forward renderers ignore it.
+    // Lights surfaces by prefiltered maps, beside all other lights; null: nothing. The
+    // forward renderers ignore it.
     std::shared_ptr<const PrefilteredEnvironment> reflections;
     float bloom = 0.0f;     // share of the light that blooms, 0..1
     float exposure = 0.0f;  // [EV]

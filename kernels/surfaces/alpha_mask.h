@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Alpha at a triangle's pixels: glTF's alphaModes MASK and BLEND. Sampled as resolve_surfaces does with
-// one sample a pixel, whatever the anisotropy, and with the same bits on every device.
+// Alpha at a triangle's pixels: glTF's alphaModes MASK and BLEND. Sampled as resolve_surfaces does
+// with one sample a pixel, whatever the anisotropy, and with the same bits on every device.
 #ifndef KILOLUX_DEVICE_ALPHA_MASK_H
 #define KILOLUX_DEVICE_ALPHA_MASK_H
 #include "kernels/device/triangle.h"

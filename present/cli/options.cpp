@@ -118,8 +118,8 @@ void visit_more_lights(const SettingVisitor& f, SharedOptions& o) {
         .rest()
         .flag("--reflections", o.reflections,
               "Light surfaces by prefiltered maps of the environment (split sum) in place of "
-              "lights, so that shiny metals reflect it; render and view; not blended surfaces, no "
-              "forward renderers",
+              "lights, so that shiny metals reflect it; render and view; no forward "
+              "renderers",
               kPicture)
         .count({"--environment-lights", "N", "", "Directional lights that stand for it", kPicture,
                 "1"},

@@ -172,7 +172,6 @@ std::string add_environment(SharedOptions& options, AnimatedScene& scene) {
         options.maps =
             std::make_shared<const PrefilteredEnvironment>(kept_prefiltered(environment, commit()));
         line += "prefiltered";
-        if (has_blended_surfaces(scene.scene())) line += ", which does not light what blends";
     } else {
         const auto lights =
             environment_lights(environment, static_cast<std::size_t>(options.environment_lights));

@@ -139,9 +139,8 @@ void render_from(RenderOptions& options, const PictureTasks& tasks, std::size_t 
         start.want.strip_makers *= static_cast<int>(1 + more_devices.size());
         start.on_lit = [&](const Scene& scene,
                            const RenderSettings& settings) -> std::shared_ptr<void> {
-            if (!has_rows_to_share(scene, settings)) {
-                note(
-                    "device  OpenGL lights or blends surfaces: one device makes the whole picture");
+            if (!has_rows_to_share(settings)) {
+                note("device  OpenGL lights surfaces: one device makes the whole picture");
                 return nullptr;
             }
             auto made = std::make_shared<DeviceHelpers>(more_devices);

@@ -4,6 +4,20 @@
 namespace kilolux {
 namespace {
 
+// What a launch of `raster_layers` goes on from.
+struct LayerState {
+    uint is_first;
+    DeviceArray<float> keys;
+    DeviceArray<uint> ids, drawn;
+
+    void each(auto&& set) const {
+        set("is_first", is_first);
+        set("keys", keys);
+        set("ids", ids);
+        set("drawn", drawn);
+    }
+};
+
 BuildOptions layer_options(const Tuning& tuning) {
     BuildOptions options;
     define_tiles(options, tuning);
@@ -35,7 +49,7 @@ DeviceArray<uint> RasterLayers::enqueue(const SurfaceBuffers& scene, const Trian
     const uint none = 0;
     upload<uint>(gpu_, drawn_.reserve(1), std::span(&none, 1));
     draw_.enqueue(draw_.pixel_items(view_, tuning_.shade_rows), timer, view_, scene, lists,
-                  is_first_ ? 1u : 0u, keys_.get(), ids_.get(), drawn_.get());
+                  LayerState{is_first_ ? 1u : 0u, keys_.get(), ids_.get(), drawn_.get()});
     is_first_ = false;
     return ids_.get();
 }

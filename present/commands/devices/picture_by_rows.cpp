@@ -100,9 +100,7 @@ FrameStats stats_of(const RowsJob& job, const FrameStats& begun,
 
 }  // namespace
 
-bool has_rows_to_share(const Scene& scene, const RenderSettings& settings) {
-    return !is_forward(settings.renderer) && !has_blended_surfaces(scene);
-}
+bool has_rows_to_share(const RenderSettings& settings) { return !is_forward(settings.renderer); }
 
 PictureByRows render_by_rows(DeviceHelpers& helpers, SceneRenderer& pictures, bool has_alpha,
                              double time, int frame) {

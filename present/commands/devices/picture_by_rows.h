@@ -14,9 +14,9 @@ struct PictureByRows {
     std::vector<DeviceShare> shares;
 };
 
-/// Whether several devices can make one picture: not where OpenGL lights or blends surfaces, which
-/// takes whole pictures.
-bool has_rows_to_share(const Scene& scene, const RenderSettings& settings);
+/// Whether several devices can make one picture: not where OpenGL lights surfaces, which takes
+/// whole pictures.
+bool has_rows_to_share(const RenderSettings& settings);
 
 /// Makes the picture of SceneRenderer::render() with helpers, bit for bit; with `has_alpha` also
 /// its coverage(). A free device takes the next rows. Throws as DeviceHelpers::run().
