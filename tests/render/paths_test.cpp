@@ -33,18 +33,6 @@ void expect_same_bits(const Frame& a, const Frame& b) {
     EXPECT_EQ(a.display, b.display);
 }
 
-// Relative to the value, or to a hundredth of the mean where it is nearly black.
-std::vector<double> relative_differences(const Frame& a, const Frame& b) {
-    double mean = 0.0;
-    for (const float value : a.radiance) mean += value;
-    const double floor = 0.01 * mean / static_cast<double>(a.radiance.size());
-    std::vector<double> out;
-    for (std::size_t i = 0; i < a.radiance.size(); ++i) {
-        out.push_back(std::abs(a.radiance[i] - b.radiance[i]) / (a.radiance[i] + floor));
-    }
-    return out;
-}
-
 // The scene with glass for the first mesh's material.
 Scene with_glass() {
     Scene scene = make_generated_scene("grid");
@@ -149,7 +137,7 @@ TEST(Paths, ComputeDrawsAsIdsDo) {
         const Frame ids = render_as(scene, settings, RendererKind::deferred);
         settings.geometry = Geometry::compute;
         const Frame compute = render_as(scene, settings, RendererKind::deferred);
-        const auto differences = relative_differences(ids, compute);
+        const auto differences = picture_differences(ids, compute);
         EXPECT_EQ(quantile(differences, 0.99), 0.0) << scene.name;
         EXPECT_GT(lit_share(compute), 0.2) << scene.name;
     }
@@ -173,7 +161,7 @@ TEST(Paths, AllFourAgreeWithTheFullGBuffer) {
     for (const RendererKind other :
          {RendererKind::deferred_all, RendererKind::forward, RendererKind::forward_plus}) {
         SCOPED_TRACE(static_cast<int>(other));
-        const auto differences = relative_differences(deferred, render_as(scene, settings, other));
+        const auto differences = picture_differences(deferred, render_as(scene, settings, other));
         EXPECT_LT(quantile(differences, 0.5), 1e-4);
         EXPECT_LT(quantile(differences, 0.999), 1e-2);
     }
@@ -191,12 +179,12 @@ TEST(Paths, SurfacesThatBlendAreDrawnByAll) {
     const Frame deferred = render_as(scene, settings, RendererKind::deferred);
     expect_same_bits(deferred, render_as(scene, settings, RendererKind::deferred_all));
     for (const RendererKind other : {RendererKind::forward, RendererKind::forward_plus}) {
-        const auto differences = relative_differences(deferred, render_as(scene, settings, other));
+        const auto differences = picture_differences(deferred, render_as(scene, settings, other));
         EXPECT_LT(quantile(differences, 0.5), 1e-4);
         EXPECT_LT(quantile(differences, 0.999), 1e-2);
     }
     const auto seen =
-        relative_differences(deferred, render_as(opaque, settings, RendererKind::deferred));
+        picture_differences(deferred, render_as(opaque, settings, RendererKind::deferred));
     EXPECT_GT(quantile(seen, 0.99), 0.02) << "nothing in the picture blends";
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <string>
@@ -93,6 +94,20 @@ inline double quantile(std::vector<double> values, double q) {
     std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(place),
                      values.end());
     return values[place];
+}
+
+/// Differences of the values that are not black in both, relative to the value, or to a hundredth
+/// of the mean where it is nearly black.
+inline std::vector<double> picture_differences(const Frame& a, const Frame& b) {
+    double mean = 0.0;
+    for (const float value : a.radiance) mean += value;
+    const double floor = 0.01 * mean / static_cast<double>(a.radiance.size());
+    std::vector<double> out;
+    for (std::size_t i = 0; i < a.radiance.size(); ++i) {
+        if (a.radiance[i] == 0.0f && b.radiance[i] == 0.0f) continue;
+        out.push_back(std::abs(a.radiance[i] - b.radiance[i]) / (a.radiance[i] + floor));
+    }
+    return out;
 }
 
 }  // namespace kilolux

@@ -108,19 +108,6 @@ std::vector<double> pixel_differences(const Frame& a, const Frame& b,
     return out;
 }
 
-// Relative to the value, or to a hundredth of the mean where it is nearly black.
-std::vector<double> picture_differences(const Frame& a, const Frame& b) {
-    double mean = 0.0;
-    for (const float value : a.radiance) mean += value;
-    const double floor = 0.01 * mean / static_cast<double>(a.radiance.size());
-    std::vector<double> out;
-    for (std::size_t i = 0; i < a.radiance.size(); ++i) {
-        if (a.radiance[i] == 0.0f && b.radiance[i] == 0.0f) continue;
-        out.push_back(std::abs(a.radiance[i] - b.radiance[i]) / (a.radiance[i] + floor));
-    }
-    return out;
-}
-
 // Albedo times occlusion and emission, which ambient light alone shows.
 void expect_same_colors(Ways& ways, std::span<const ShownPixel> shown, int anisotropy) {
     ways.light_by(1.0f, 0);
