@@ -58,15 +58,20 @@ Kernel::Kernel(const Gpu& gpu, KernelProgram program, std::string_view stage, co
       stage_(stage),
       name_(name),
       checks_arguments_(gpu.checks_arguments),
-      tables_(in_stage(stage, [&] { return device_tables(gpu); })) {}
+      tables_(in_stage(stage, [&] { return device_tables(gpu); })) {
+    if (!gpu.programs->builds_in_background()) made();
+}
 
 Kernel::Made& Kernel::made() const {
     if (made_) return *made_;
     in_stage(stage_, [&] {
-        const cl::Kernel kernel(program_.built(), name_);
-        const auto largest = kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device_);
-        made_ = {kernel, largest, {}, {}};
-        if (checks_arguments_) made_->parameters = parameters_of(kernel);
+        const auto start = StageTimer::Clock::now();
+        Made made;
+        made.kernel = cl::Kernel(program_.built(), name_);
+        made.wait = {start, StageTimer::Clock::now()};
+        made.largest_group = made.kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device_);
+        if (checks_arguments_) made.parameters = parameters_of(made.kernel);
+        made_ = std::move(made);
     });
     return *made_;
 }
@@ -78,6 +83,12 @@ void Kernel::compare_argument(cl_uint index, std::string_view name, std::string_
     throw Error(stage_ + ": argument " + std::to_string(index) + " is '" + std::string(name) +
                 "' of type " + std::string(type) + (is_memory ? "*" : "") +
                 "; the kernel's parameter is '" + parameter.name + "' of type " + parameter.type);
+}
+
+void Kernel::take_wait(StageTimer& timer) {
+    if (!made().wait) return;
+    timer.record_build(made().wait->front(), made().wait->back());
+    made().wait.reset();
 }
 
 bool Kernel::is_first_launch(const cl::NDRange& group) {

@@ -47,11 +47,13 @@ concept ArgumentBundle = requires(const T& value) {
     value.each([](const auto&...) {});
 };
 
-/// One kernel of a stage. A launch sets all arguments in their order. The first call that needs the
-/// kernel waits for its program, and throws as that does.
+/// One kernel of a stage, for one thread at a time. A launch sets all arguments in their order.
+/// Where other threads build programs, the first call that needs this one waits for it, and throws
+/// as KernelProgram::built() does; the Gpu's programs must live till then.
 class Kernel {
  public:
-    /// `stage` names the launches in times and error messages. Throws Error with it.
+    /// `stage` names the launches in times and error messages. Throws Error with it,
+    /// and as KernelProgram::built() where no other threads build. `name` is not copied.
     Kernel(const Gpu& gpu, KernelProgram program, std::string_view stage, const char* name);
 
     /// Lanes of the kernel's FV.
@@ -74,6 +76,7 @@ class Kernel {
         in_stage(stage_, [&] {
             Setter set{*this, made()};
             (set(arguments), ...);
+            take_wait(timer);
             const bool is_first = is_first_launch(size.local);
             timer.record(stage_, launch(size), is_first);
         });
@@ -83,9 +86,11 @@ class Kernel {
     // What needs the program.
     struct Made {
         cl::Kernel kernel;
-        std::size_t largest_group;                         // work-items that the device allows
+        std::size_t largest_group = 0;                     // work-items that the device allows
         std::vector<KernelParameter> parameters;           // with Gpu::checks_arguments
         std::vector<std::array<std::size_t, 3>> launched;  // sizes of groups
+        // Waiting for the program, until a timer has it.
+        std::optional<std::array<StageTimer::Clock::time_point, 2>> wait;
     };
     // Sets arguments one after the other.
     struct Setter {
@@ -137,6 +142,7 @@ class Kernel {
     bool is_first_launch(const cl::NDRange& group);
 
     Made& made() const;
+    void take_wait(StageTimer& timer);
 
     cl::CommandQueue queue_;
     cl::Device device_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <string>
+#include <system_error>
 #include <thread>
 
 #include "host/base/log.h"
@@ -29,7 +30,7 @@ std::string build_log(const cl::Program& program, const cl::Device& device) {
     }
 }
 
-// What a build takes; it holds no Gpu, whose programs it would keep.
+// What a build takes. No Gpu: the cache would own itself.
 struct BuildInput {
     cl::Context context;
     cl::Device device;
@@ -58,10 +59,9 @@ cl::Program build(const BuildInput& in) {
 cl::Program timed_build(const BuildInput& in, ProgramCache& cache) {
     check_interrupt();
     detail("building " + in.file + " " + in.options);
-    const auto start = std::chrono::steady_clock::now();
     cache.begin_build();
     const auto end = [&] {
-        if (!cache.end_build(start)) return;
+        if (!cache.end_build()) return;
         note_wait("building kernels for " + in.device_name +
                   "; most drivers keep them for the next run ...");
     };
@@ -116,34 +116,50 @@ ProgramCache::~ProgramCache() {
     builders_.clear();  // waits
 }
 
+void ProgramCache::build_in_background() {
+    const std::scoped_lock lock(mutex_);
+    in_background_ = !has_address_space_limit();
+}
+
+bool ProgramCache::builds_in_background() const {
+    const std::scoped_lock lock(mutex_);
+    return in_background_;
+}
+
 std::shared_ptr<ProgramBuild> ProgramCache::find(const std::string& key, ProgramBuild::Make make) {
     const std::scoped_lock lock(mutex_);
     std::shared_ptr<ProgramBuild>& found = programs_[key];
     if (found && !found->has_failed()) return found;
     found = std::make_shared<ProgramBuild>(std::move(make));
-    waiting_.push_back(found);
-    start_builder();
+    if (in_background_) {
+        waiting_.push_back(found);
+        start_builder();
+    }
     return found;
 }
 
-// With mutex_ locked.
+// With mutex_ locked. Where no thread starts, the first user of the program builds it.
 void ProgramCache::start_builder() {
     const std::size_t most =
         std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, kMostBuilders);
-    // Drivers and other threads would each find room that the other takes.
-    if (working_ >= static_cast<int>(most) || has_address_space_limit()) return;
-    ++working_;
+    if (working_ >= static_cast<int>(most)) return;
     std::erase_if(builders_, [](const std::future<void>& builder) {
         return builder.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
     });
-    builders_.push_back(std::async(std::launch::async, [this] {
-        while (const std::shared_ptr<ProgramBuild> next = next_waiting()) {
-            try {
-                next->program();
-            } catch (...) {  // whoever uses the program is told
-            }
+    try {
+        builders_.push_back(std::async(std::launch::async, [this] { build_waiting(); }));
+        ++working_;
+    } catch (const std::system_error&) {
+    }
+}
+
+void ProgramCache::build_waiting() {
+    while (const std::shared_ptr<ProgramBuild> next = next_waiting()) {
+        try {
+            next->program();
+        } catch (...) {  // whoever uses the program is told
         }
-    }));
+    }
 }
 
 // Null: there is none, and the builder ends.
@@ -163,10 +179,9 @@ void ProgramCache::begin_build() {
     if (building_++ == 0) building_since_ = std::chrono::steady_clock::now();
 }
 
-bool ProgramCache::end_build(std::chrono::steady_clock::time_point start) {
-    const auto end = std::chrono::steady_clock::now();
+bool ProgramCache::end_build() {
     const std::scoped_lock lock(times_);
-    builds_.push_back({start, end});
+    const auto end = std::chrono::steady_clock::now();
     --building_;
     const auto since = std::exchange(building_since_, end);
     return add_seconds(std::chrono::duration<double>(end - since).count());
@@ -186,11 +201,6 @@ bool ProgramCache::add_seconds(double seconds) {
 double ProgramCache::build_seconds() const {
     const std::scoped_lock lock(times_);
     return build_seconds_;
-}
-
-std::vector<BuildSpan> ProgramCache::take_builds() {
-    const std::scoped_lock lock(times_);
-    return std::exchange(builds_, {});
 }
 
 BuildOptions& BuildOptions::define(std::string_view name, int value) {

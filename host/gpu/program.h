@@ -45,11 +45,6 @@ inline constexpr std::string_view kKernelPrologue =
     "#endif\n"
     "#endif\n";
 
-/// When the host built a program.
-struct BuildSpan {
-    std::chrono::steady_clock::time_point start, end;
-};
-
 /// A program that is built once, by the first thread that comes to it. Others wait.
 class ProgramBuild {
  public:
@@ -76,7 +71,7 @@ struct KernelProgram {
     std::shared_ptr<ProgramBuild> build;
     int lanes = 1;
 
-    /// Waits until it is built. Throws as build_program() says.
+    /// Builds it, or waits until another thread has. Throws as build_program() says.
     const cl::Program& built() const { return build->program(); }
 };
 
@@ -84,25 +79,29 @@ struct KernelProgram {
 inline constexpr double kLongBuildSeconds = 1.0;
 
 /// What copies of a Gpu share: the programs of one context by options and text, and the tables that
-/// kernels read. They live as long as a Gpu that shares them. Other threads build programs
-/// meanwhile; the destructor waits for those that they have begun.
+/// kernels read. They live as long as a Gpu that shares them.
 class ProgramCache {
  public:
     ~ProgramCache();
 
-    /// The program of `key`; `make` begins in another thread if it is new or has failed.
+    /// From now on other threads build programs, unless the address space is limited. The
+    /// destructor waits for builds that have begun. It must run before main() returns: drivers'
+    /// compilers do not work while static objects are destroyed.
+    void build_in_background();
+    bool builds_in_background() const;
+
+    /// The program of `key`; if it is new or has failed `make` will build it, in another thread or
+    /// at its first use.
     std::shared_ptr<ProgramBuild> find(const std::string& key, ProgramBuild::Make make);
 
-    /// Called around each build. `end_build` returns whether builds and first launches, before
-    /// which drivers compile, are long together for the first time: the user waits.
+    /// Called around each build. end_build() returns true once: when builds and first launches, in
+    /// which drivers compile, are together longer than kLongBuildSeconds.
     void begin_build();
-    bool end_build(std::chrono::steady_clock::time_point start);
+    bool end_build();
     /// Adds the time before first launches. Returns as end_build() does.
     bool add_build_time(double seconds);
     /// For how long programs were built; times of several threads count once.
     double build_seconds() const;
-    /// The builds since the last call.
-    std::vector<BuildSpan> take_builds();
 
     /// The tables; made by `make` if there are none yet.
     template <typename Make>
@@ -114,10 +113,12 @@ class ProgramCache {
 
  private:
     void start_builder();
+    void build_waiting();
     std::shared_ptr<ProgramBuild> next_waiting();
     bool add_seconds(double seconds);
 
-    std::mutex mutex_;  // of those that follow
+    mutable std::mutex mutex_;  // of those that follow
+    bool in_background_ = false;
     std::map<std::string, std::shared_ptr<ProgramBuild>> programs_;
     std::deque<std::shared_ptr<ProgramBuild>> waiting_;
     std::vector<std::future<void>> builders_;
@@ -130,7 +131,6 @@ class ProgramCache {
     int building_ = 0;                                      // threads
     std::chrono::steady_clock::time_point building_since_;  // not yet in build_seconds_
     double build_seconds_ = 0.0;
-    std::vector<BuildSpan> builds_;
 };
 
 /// Whether kernels/device/pocl_builtins.h replaces the driver's opencl-c.h. Tested with PoCL 3.1
@@ -138,10 +138,9 @@ class ProgramCache {
 bool takes_our_declarations(const DeviceInfo& device);
 
 /// The program of one stage, `kernels/<stem>.cl`, built for the device with its lane width as VW.
-/// Copies of a Gpu share programs: the same text and options are built once. Another thread builds
-/// it meanwhile. Throws Error where the text cannot be read. The program throws, when it is first
-/// used, Error with file, device, options and the compiler's log; Interrupted once a signal has
-/// asked for the end before it was built.
+/// Copies of a Gpu share programs: the same text and options are built once. Throws Error where the
+/// text cannot be read. KernelProgram::built() throws Error with file, device, options and the
+/// compiler's log; Interrupted, before it builds, once a signal has asked for the end.
 KernelProgram build_program(const Gpu& gpu, std::string_view stem,
                             const BuildOptions& options = {});
 

@@ -21,7 +21,7 @@ class StageTimer {
     /// compile.
     void record(std::string_view stage, const cl::Event& event, bool is_first = false);
 
-    /// Adds a time in which the host built a program, as far as it lies after the last take().
+    /// Adds a time in which the host waited for a program, as far as it lies after the last take().
     void record_build(Clock::time_point start, Clock::time_point end);
 
     /// Adds the last `ms` of the host to a stage, as far as the device idled in them.

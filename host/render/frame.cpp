@@ -186,12 +186,10 @@ void render_bands(Pipeline& p, const Shot& shot, SharedPicture& picture, FrameSt
         FrameStats stats;
         render_band(p, shot, lights, band, frame, {p.timer, stats});
         add_band(total, stats);
-        // Builds may have lasted since begin().
+        // Waits for programs may have begun in begin().
         total.frame_ms = std::max(0.0, total.frame_ms + ms_since(start) - stats.build_ms);
         add_pixels(p, shot, picture);
-        // frame_ms leaves out the time of add_pixels().
-        p.context.gpu.programs->take_builds();
-        p.timer = StageTimer();
+        p.timer = StageTimer();  // frame_ms leaves out the time of add_pixels()
     }
 }
 

@@ -2,6 +2,7 @@
 #include "host/render/layers.h"
 
 #include "host/base/formats/gbuffer_layout.h"
+#include "host/base/system/interrupt.h"
 #include "host/gpu/repeat_until_fits.h"
 
 namespace kilolux {
@@ -59,6 +60,7 @@ void Layers::draw(const Sample& sample, const LitBand& band, EnvironmentLight& e
     layer.grid = band.grid;
     layer.shadows = band.shadows;
     while (true) {
+        check_interrupt();
         const DeviceArray<uint> ids = raster_.enqueue(scene, lists, out.timer);
         if (raster_.pixels() == 0) return;
         layer.surfaces = resolve_.enqueue(

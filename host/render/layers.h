@@ -14,9 +14,10 @@
 
 namespace kilolux {
 
-/// Surfaces that blend over others, of the deferred renderers: from far to near, one layer of
-/// fragments after the other is a G-buffer, which is lit as opaque surfaces are and laid over the
-/// light behind it. Each pixel has as many layers as fragments, whatever their order in the scene.
+/// Surfaces that blend over others, of the deferred renderers. Each layer of fragments, from far to
+/// near, becomes a G-buffer, is lit as opaque surfaces are, and is laid over the light behind it.
+/// The order in the scene does not matter, and the number of layers has no limit; each costs as the
+/// lighting of a picture does.
 class Layers {
  public:
     /// Bytes of a pixel of a layer, beside its G-buffer and lists.
@@ -25,7 +26,7 @@ class Layers {
     explicit Layers(RenderContext& context);
 
     /// Lays them over the light of `band`, which is lit and has its background. Blocks. Throws
-    /// Error as the stages do.
+    /// Error as the stages do, Interrupted between layers.
     void draw(const Sample& sample, const LitBand& band, EnvironmentLight& environment,
               Measured out);
 

@@ -63,7 +63,7 @@ struct RenderContext {
 /// The plan for a scene with its own lights and the generated ones.
 ScenePlan plan_of(const Scene& scene, const RenderSettings& settings);
 
-/// Whether OpenCL draws the triangles, too: not where OpenGL lights or blends surfaces. Automatic
+/// Whether OpenCL draws the triangles, too: not where OpenGL lights surfaces. Automatic
 /// geometry takes what the tuning says is faster, or OpenCL where OpenGL lacks or cannot draw
 /// pictures of that width.
 bool draws_in_opencl(const RenderScene& scene, const RenderSettings& settings,

@@ -36,9 +36,6 @@ SampleCounts counts_of(const AdaptiveSamples& samples) {
 }  // namespace
 
 void add_times(const Gpu& gpu, StageTimer& timer, FrameStats& stats) {
-    for (const BuildSpan& build : gpu.programs->take_builds()) {
-        timer.record_build(build.start, build.end);
-    }
     for (const StageTimer::Time& time : timer.take()) {
         add_stage_time(stats.stages, time.stage, time.ms);
     }

@@ -46,8 +46,8 @@ static inline MaskedTriangle fetch_masked_triangle(SurfaceScene scene, View view
 }
 
 // The material's alpha at pixels, whether the triangle covers them or not.
-static inline FV covered_share(SurfaceScene scene, View view, const MaskedTriangle* t,
-                               Pixels pixels) {
+static inline FV material_alpha(SurfaceScene scene, View view, const MaskedTriangle* t,
+                                Pixels pixels) {
     Weights w = weights_of(view, pixels, t->edges);
     Fragment f;
 #if HAS_TEXCOORD0
@@ -65,6 +65,6 @@ static inline FV covered_share(SurfaceScene scene, View view, const MaskedTriang
 // The pixels that alpha keeps, likewise.
 static inline MASK passes_mask(SurfaceScene scene, View view, const MaskedTriangle* t,
                                Pixels pixels) {
-    return passes_cutoff(t->material, covered_share(scene, view, t, pixels));
+    return passes_cutoff(t->material, material_alpha(scene, view, t, pixels));
 }
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lays a lit layer over the light behind it: alpha * layer + (1 - alpha) * behind, alpha as
-// alphaMode BLEND has it, limited to 0 to 1. Both are exact where alpha is 0 or 1. One work-item
-// has VW neighbours of a row.
+// alphaMode BLEND has it, limited to 0 to 1. Alpha 0 and 1 keep the bits of one of the two. One
+// work-item has VW neighbours of a row.
 #include "kernels/device/arguments.h"
 #include "kernels/device/radiance.h"
 #include "kernels/surfaces/alpha_mask.h"
@@ -12,15 +12,18 @@ static inline FV alpha_of_layer(SurfaceScene scene, View view, Pixels pixels, UV
         uint id = first_of(ids, left);
         MASK mask = lane_mask(ids == (UV)(id)) & shown;
         MaskedTriangle t = fetch_masked_triangle(scene, view, id - 1u);
-        FV own = covered_share(scene, view, &t, pixels);
+        FV own = material_alpha(scene, view, &t, pixels);
         alpha = lane_select(mask, min(max(own, fv(0.0f)), fv(1.0f)), alpha);
         left &= ~mask;
     }
     return alpha;
 }
 
+// Where alpha is 0 or 1 the other light counts for nothing, infinite or not.
 static inline FV blended(FV alpha, FV layer, FV behind) {
-    return fma(alpha, layer, (fv(1.0f) - alpha) * behind);
+    FV mixed = fma(alpha, layer, (fv(1.0f) - alpha) * behind);
+    mixed = lane_select(lane_mask(alpha == fv(0.0f)), behind, mixed);
+    return lane_select(lane_mask(alpha == fv(1.0f)), layer, mixed);
 }
 
 kernel void blend_layer(View view, SCENE_ARGS,

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tiles' triangles -> one layer of surfaces after the other, from far to near: at each pixel the
-// farthest fragment that is nearer than the layer before. Of equally near fragments the first
-// triangle's is the nearer one, as in raster_triangles. One work-item has VW neighbours of a row.
+// Tiles' triangles -> one layer of surfaces after the other, from far to near. A layer holds at
+// each pixel the farthest fragment that is nearer than the last layer's. Of fragments of equal
+// depth the one with the smaller triangle number counts as nearer, as in raster_triangles. One
+// work-item has VW neighbours of a row.
 #include "kernels/device/arguments.h"
 #include "kernels/device/gbuffer.h"
 #include "kernels/surfaces/raster_tile.h"
 #include "kernels/surfaces/raster_triangle.h"
 
-// The keys of opaque surfaces, and of the far plane where there is none.
+// The opaque surface's key; the far plane's where there is none.
 kernel void raster_layers_begin(GBUFFER_ARGS,
                                 global float* restrict keys,  // out [height][stride]
                                 global uint* restrict ids) {  // out [height][stride]: 0
@@ -74,10 +75,10 @@ kernel void raster_layers(View view, SCENE_ARGS, TRIANGLE_LIST_ARGS(const),  // 
             min(along(t->edge, x, y), min(along(t->edge + 3, x, y), along(t->edge + 6, x, y)));
         FV k = min(max(along(t->plane, x, y), fv(t->farthest)), fv(t->nearest));
         UV k_id = (UV)(number + 1u);
-        MASK nearer =
+        MASK in_front =
             lane_mask(k > last_key) | (lane_mask(k == last_key) & lane_mask(k_id < last_id));
-        MASK farther = lane_mask(k < key) | (lane_mask(k == key) & lane_mask(k_id > id));
-        wins &= nearer & farther & lane_mask(k <= near) & lane_mask(least >= fv(-1.0f));
+        MASK behind_best = lane_mask(k < key) | (lane_mask(k == key) & lane_mask(k_id > id));
+        wins &= in_front & behind_best & lane_mask(k <= near) & lane_mask(least >= fv(-1.0f));
         MASK unsure = wins & lane_mask(!(least > fv(1.0f)));
         if (lane_any(unsure)) {
             wins = (wins & ~unsure) | decide_exactly(scene, view, number, unsure, x, y);

@@ -15,8 +15,8 @@ namespace {
 // walk behind other chunks, so it gets this many times as many.
 constexpr int kManyLights = 8;
 
-// Begins to build programs that most pictures need, whatever the scene. The cache keeps them; one
-// that is missing here is built later.
+// Begins to build programs that depend on no scene and that most pictures need. The cache keeps
+// them for the stages that are made later; a program that is not named here is built then.
 void build_ahead(const Gpu& gpu, const Tuning& tuning) {
     DriftLights(gpu, tuning);
     MoveLights(gpu, tuning);
@@ -55,6 +55,7 @@ Gpu device_for(const RenderSettings& settings, const Gpu& opened) {
 
 std::future<Gpu> open_device_async(const RenderSettings& settings) {
     return open_gpu_async(settings.device, [settings](const Gpu& opened) {
+        opened.programs->build_in_background();
         const Gpu gpu = device_for(settings, opened);
         build_ahead(gpu, choose_tuning(gpu.info, settings.kernels).tuning);
     });

@@ -108,16 +108,17 @@ Bytes picture_pixel_bytes(const RenderSettings& settings) {
 
 // Bytes of the scene on the device, for any picture size.
 Bytes scene_device_bytes(const Scene& scene, const RenderSettings& settings, const ScenePlan& plan,
-                         bool ids) {
+                         bool ids, bool blends) {
     const std::size_t nodes = plan.kernels.light_tree ? 2 * scene.lights.size() : 0;
     Bytes bytes = (settings.lights.count + scene.lights.size() + nodes) * kLight;
-    if (ids) {
+    if (ids || blends) {
         bytes += surface_scene_bytes(scene, surface_features(scene, plan.gbuffer, kAnyAnisotropy));
     }
     bytes += EnvironmentLight::device_bytes(settings);
     if (ids && settings.geometry != Geometry::ids) {  // `automatic` may draw in OpenCL, too
         bytes += BinTriangles::kTriangleBytes * triangle_count(scene);
     }
+    if (blends) bytes += BinTriangles::kTriangleBytes * triangle_count(scene);  // at most
     if (plan.kernels.shadows) bytes += shadow_scene_bytes(scene);
     return bytes;
 }
@@ -126,11 +127,12 @@ Bytes scene_device_bytes(const Scene& scene, const RenderSettings& settings, con
 Bytes band_pixel_bytes(const RenderSettings& settings, const ScenePlan& plan, bool ids,
                        bool blends) {
     const bool decodes = settings.want.pixels();
-    Bytes bytes =
-        static_cast<Bytes>(plan.gbuffer_bytes_per_pixel) + kBandPixel + BinPixels::kPixelBytes;
+    Bytes lit = static_cast<Bytes>(plan.gbuffer_bytes_per_pixel) + BinPixels::kPixelBytes;
+    if (plan.kernels.shadows) lit += ShadowOrigins::kPixelBytes;
+    Bytes bytes = lit + kBandPixel;
+    if (blends) bytes += lit + Layers::kPixelBytes;
     if (ids) bytes += RasterTriangles::kPixelBytes;  // or as many that OpenGL hands over
     if (ids && settings.auto_samples.on) bytes += MaskTiles::kPixelBytes;
-    if (plan.kernels.shadows) bytes += ShadowOrigins::kPixelBytes;
     if (settings.auto_samples.on) {
         bytes += AdaptiveSamples::kPixelBytes;
     } else if (settings.samples > 1) {
@@ -138,9 +140,6 @@ Bytes band_pixel_bytes(const RenderSettings& settings, const ScenePlan& plan, bo
     }
     if (decodes || settings.want.counts) bytes += 2 * CountLights::kPixelBytes;  // and on the host
     if (decodes) bytes += 2 * DecodeGBuffer::kPixelBytes + layer_bytes(settings);
-    if (blends)
-        bytes += static_cast<Bytes>(plan.gbuffer_bytes_per_pixel) + kBandPixel +
-                 BinPixels::kPixelBytes + Layers::kPixelBytes;
     return bytes;
 }
 
@@ -150,10 +149,10 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
     const auto height = static_cast<Bytes>(settings.height);
     const Bytes tile_rows =
         is_forward(settings.renderer) ? height : std::min<Bytes>(height, kRasterRows);
-    const bool blends = has_blended_surfaces(scene);
+    const bool blends = has_blended_surfaces(scene) && !is_forward(settings.renderer);
     const bool ids = resolves_ids(settings.geometry) && !is_forward(settings.renderer);
     Need need;
-    const Bytes on_device = scene_device_bytes(scene, settings, plan, ids);
+    const Bytes on_device = scene_device_bytes(scene, settings, plan, ids, blends);
     need.device_fixed = on_device + width * height * whole_picture_pixel_bytes(settings);
     need.fixed = kProgram + scene_bytes(scene, !ids) + need.device_fixed;
     need.picture_pixel = picture_pixel_bytes(settings);

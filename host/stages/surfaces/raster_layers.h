@@ -17,7 +17,8 @@ class RasterLayers {
 
     RasterLayers(const Gpu& gpu, const Tuning& tuning);
 
-    /// The next layer will be the farthest before `opaque` surfaces. Enqueues only.
+    /// Starts anew: the next enqueue() draws the farthest layer in front of `opaque`. Enqueues
+    /// only.
     void begin(const GBuffer& opaque, StageTimer& timer);
 
     /// ids[view.height][view.stride] of the next layer, as RasterTriangles has them. `lists`: of
@@ -25,7 +26,7 @@ class RasterLayers {
     DeviceArray<uint> enqueue(const SurfaceBuffers& scene, const TriangleLists& lists,
                               StageTimer& timer);
 
-    /// Pixels that the last enqueue()'s layer has. Blocks.
+    /// How many pixels the last layer covers; 0: there was none. Blocks.
     std::uint64_t pixels() const;
 
  private:

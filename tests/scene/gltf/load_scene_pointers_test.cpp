@@ -181,6 +181,9 @@ TEST(LoadScenePointers, OneWarningNamesWhatIsNotRead) {
         "/materials/0/extensions/KHR_materials_sheen/sheenRoughnessFactor",
         "/materials/1/normalTexture/scale",  // it has no such texture
         "/materials/99/emissiveFactor",
+        "/materials//emissiveFactor",
+        "/nodes/99999999999999999999999/translation",
+        "/nodes/00/translation",
         "/nodes/0/matrix",
         "/materials/0/doubleSided",
         "/asset",

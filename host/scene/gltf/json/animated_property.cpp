@@ -34,6 +34,13 @@ constexpr auto kModelProperties = std::to_array<ModelProperty>({
     {"meshes", "weights", 0},
 });
 
+// An index as JSON pointers have it: digits without a leading zero (RFC 6901, section 4).
+bool is_index(std::string_view part, std::size_t& index) {
+    const char* end = part.data() + part.size();
+    const auto [rest, error] = std::from_chars(part.data(), end, index);
+    return rest == end && error == std::errc() && (part.front() != '0' || part.size() == 1);
+}
+
 // A JSON pointer as an array, the element's index and a path within it.
 std::optional<AnimatedProperty> split(std::string_view pointer) {
     AnimatedProperty out;
@@ -42,9 +49,8 @@ std::optional<AnimatedProperty> split(std::string_view pointer) {
         pointer.remove_prefix(1);
         const std::string_view part = pointer.substr(0, pointer.find('/'));
         pointer.remove_prefix(part.size());
-        const char* end = part.data() + part.size();
         std::string& path = has_element ? out.path : out.array;
-        if (!has_element && std::from_chars(part.data(), end, out.element).ptr == end) {
+        if (!has_element && is_index(part, out.element)) {
             has_element = true;
         } else {
             path.append(path.empty() ? "" : ".").append(part);
