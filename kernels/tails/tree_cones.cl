@@ -47,6 +47,10 @@ static inline ClusterCone cone_of_pixels(GBuffer g, uint tile, global const ucha
 #if HAS_COAT
         if (s.coat > 0.0f) sharpness = max(sharpness, sharpness_of(s.coat_roughness));
 #endif
+#if HAS_SHEEN_LOBE
+        float most = max(max(s.sheen.x, s.sheen.y), s.sheen.z);
+        if (most > 0.0f) sharpness = max(sharpness, sharpness_of(s.sheen_roughness));
+#endif
 #endif
     }
     float length2 = dot(sum, sum);

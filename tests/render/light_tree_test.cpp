@@ -95,6 +95,16 @@ TEST(LightTreePictures, ErrWithinTheirBoundUnderCoats) {
     }
 }
 
+TEST(LightTreePictures, ErrWithinTheirBoundWithSheen) {
+    Scene scene = cloth_scene();
+    add_points(scene, 1500, {-4.5, 1.0, -4.5}, {4.5, 3.0, 4.5});
+    for (const Tails tails : {Tails::tree, Tails::bounded}) {
+        const TailAgreement found = compare_coated(scene, tails);
+        EXPECT_EQ(found.below, 0);
+        EXPECT_GT(found.looseness.size(), 500u);
+    }
+}
+
 // All surfaces are turned away from all lights, their coats are not.
 TEST(LightTreePictures, CountNodesThatOnlyCoatsFace) {
     Scene scene = car_paint_scene();
