@@ -34,7 +34,7 @@ SurfaceSample sheen_surface(double roughness, double albedo = 0.0, double metall
 // The integral over the hemisphere of what the surface sends to the eye. Samples crowd at grazing
 // angles, and towards and away from the eye.
 double returned(const SurfaceSample& s, double n_dot_v) {
-    constexpr int kRings = 300, kColumns = 150;
+    constexpr int kRings = 200, kColumns = 80;
     const glm::dvec3 v(std::sqrt(1 - n_dot_v * n_dot_v), 0, n_dot_v);
     double sum = 0.0;
     for (int i = 0; i < kRings; ++i) {
@@ -54,16 +54,15 @@ double returned(const SurfaceSample& s, double n_dot_v) {
 // Differences of SHEEN_ALBEDO_ROWS from the integrals of the lobe over black.
 TEST(Sheen, AlbedosAreIntegralsOfTheLobe) {
     double worst = 0.0, grazing = 0.0;
-    for (int i = 0; i <= 20; ++i) {
-        const double roughness = std::pow(i / 20.0, 1.5);
-        for (int k = 0; k <= 24; ++k) {
-            const double x = std::max(std::pow(k / 24.0, 1.7), 1e-4);
+    for (int i = 0; i <= 12; ++i) {
+        const double roughness = std::pow(i / 12.0, 1.5);
+        for (int k = 0; k <= 16; ++k) {
+            const double x = std::max(std::pow(k / 16.0, 1.7), 1e-4);
             const double expected = std::min(returned(sheen_surface(roughness), x), 1.0);
             double& of = x > 0.009 ? worst : grazing;
             of = std::max(of, std::abs(reference_sheen_albedo(x, roughness) - expected));
         }
     }
-    RecordProperty("worst", std::to_string(worst));
     EXPECT_LT(worst, 0.013);
     EXPECT_LT(grazing, 0.2);
 }
