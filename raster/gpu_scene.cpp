@@ -106,6 +106,10 @@ void GpuScene::upload_images(const TextureTable& table) {
 }
 
 void GpuScene::refresh() {
+    // A new buffer, as of bind().
+    if (rewrite_materials(rows_, scene_, features())) {
+        materials_ = filled_buffer(bytes_of(rows_.materials));
+    }
     rewrite_vertices(rows_, scene_, features(), [&](std::size_t first, std::span<const float> v) {
         glNamedBufferSubData(vertices_.buffer.name(), static_cast<GLintptr>(first * sizeof(float)),
                              static_cast<GLsizeiptr>(v.size_bytes()), v.data());

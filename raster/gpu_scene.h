@@ -21,14 +21,14 @@ enum class GpuSceneUse {
 /// use.
 class GpuScene {
  public:
-    /// The scene must outlive this; its materials and textures must stay as they are and its meshes
-    /// as many, its instances may move, and vertices may change before a refresh(). `anisotropy`:
-    /// samples along a footprint's longer side at most. Throws Error where the rows or an image
-    /// exceed what this OpenGL's buffer textures hold.
+    /// The scene must outlive this; its textures must stay as they are, its meshes and materials as
+    /// many, its instances may move, and vertices and factors may change before a refresh().
+    /// `anisotropy`: samples along a footprint's longer side at most. Throws Error where the rows
+    /// or an image exceed what this OpenGL's buffer textures hold.
     explicit GpuScene(const Scene& scene, int anisotropy = 1,
                       GpuSceneUse use = GpuSceneUse::shaded);
 
-    /// Uploads the vertices of meshes whose revision changed.
+    /// Uploads the materials, and the vertices of meshes, whose revision changed.
     void refresh();
 
     const Scene& scene() const { return scene_; }

@@ -27,7 +27,8 @@ void RenderScene::make_current_or_lost() const noexcept {
 void RenderScene::take_up_changes() {
     const SceneRevisions before = std::exchange(revisions_, scene_.revisions);
     if (before.surfaces() != revisions_.surfaces()) box_ = bounds(scene_);
-    if (before.geometry == revisions_.geometry) return;
+    const bool same_materials = before.materials == revisions_.materials;
+    if (before.geometry == revisions_.geometry && same_materials) return;
     for (auto& [use, meshes] : meshes_) meshes.refresh();
 }
 

@@ -87,7 +87,7 @@ GBuffer SurfacePass::enqueue(const Sample& sample, Measured out) {
                         sample.band,
                         settings.width,
                         settings.height,
-                        context_.scene->scene().revisions.surfaces(),
+                        context_.scene->scene().revisions.looks(),
                         sample.needed != nullptr};
     const bool is_kept = is_checked_ && !settings.no_reuse && !source.masked;
     if (is_kept && source_ == source) return gbuffer_;

@@ -50,7 +50,7 @@ class SurfacePass {
         Camera camera;
         Band band;
         int width, height;
-        std::array<std::uint32_t, 2> revision;  // of the scene's surfaces
+        std::array<std::uint32_t, 3> revision;  // of the scene's surfaces and their looks
         bool masked;  // some tiles are background though surfaces cover them
         bool operator==(const Source&) const = default;
     };

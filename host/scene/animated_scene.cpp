@@ -107,8 +107,14 @@ AnimatedScene::AnimatedScene(const std::filesystem::path& path, const LoadOption
     : file_(std::make_unique<File>()) {
     File& file = *file_;
     file.document = load_gltf_document(path, options);
-    const bool moves = has_animations(file.document);
+    const bool moves = !file.document.animated.empty();
     if (moves) file.document.options.time = 0.0;
+    // The scene gets a copy.
+    const std::size_t copies = drives_materials(file.document) ? 4 : 2;
+    file.document.budget->charge_memory(copies * file.document.materials.size() * sizeof(Material),
+                                        file.document.base.file + ": materials");
+    if (drives_materials(file.document)) scene_.extremes = extreme_materials(file.document);
+    animate_elements(file.document);
     file.materials = convert_materials(file.document);
     scene_.name = path.stem().string();
     scene_.clips = list_clips(file.document);
@@ -120,7 +126,6 @@ AnimatedScene::AnimatedScene(const std::filesystem::path& path, const LoadOption
         scene_.images.push_back(std::move(image));
     }
     scene_.textures = file.materials.textures;
-    scene_.materials = file.materials.materials;
     if (moves) {
         set_time(options.time);
     } else {
@@ -161,6 +166,8 @@ void AnimatedScene::set_time(double time) {
     if (!file_ || file_->time == time) return;
     file_->document.options.time = time;
     file_->document.budget->refill();
+    animate_elements(file_->document);
+    if (!scene_.extremes.empty()) file_->materials = convert_materials(file_->document);
     place();
     file_->time = time;
 }
@@ -172,6 +179,9 @@ void AnimatedScene::place() {
     const bool first = file.mesh_of_job.empty();
     const PlacedNodes nodes = place_nodes(file.document);
     ShapePlan plan = plan_shapes(file.document, nodes);
+    if (!scene_.extremes.empty()) {
+        add_map_axes(file.document, file.materials, scene_.extremes, plan);
+    }
     if (first) {
         file.jobs = list_primitives(file.document, plan);
         file.plans.resize(file.jobs.size());
@@ -192,6 +202,10 @@ void AnimatedScene::place() {
     set_lights(nodes, std::move(lights));
     set_meshes(std::move(meshes));
     SceneRevisions& revisions = scene_.revisions;
+    if (scene_.materials != file.materials.materials) {
+        scene_.materials = file.materials.materials;
+        ++revisions.materials;
+    }
     if (replace(scene_.instances, std::move(instances))) ++revisions.placement;
     if (replace(scene_.cameras, std::move(cameras))) ++revisions.cameras;
     if (first) revisions = {};

@@ -39,12 +39,12 @@ class AnimatedScene {
     /// Treats the scene as an interior or as an object; automatic changes nothing.
     void see_from(SeenFrom from);
 
-    /// Whether clips that move nodes play.
+    /// Whether clips play that drive something.
     bool moves() const { return file_ != nullptr; }
 
-    /// Evaluates the animations at `time` [s]: transforms, lights, cameras, and the vertices of
-    /// meshes with a skin or with morph weights that are driven. Throws Error as loading does; the
-    /// scene then stays at the time it had.
+    /// Evaluates the animations at `time` [s]: transforms, visibility, lights, cameras, materials,
+    /// and the vertices of meshes with a skin or with morph weights that are driven. Throws Error
+    /// as loading does; the scene then stays at the time it had.
     void set_time(double time);
 
     /// Adds lights that are the same at any time.

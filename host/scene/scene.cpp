@@ -214,6 +214,15 @@ const Material& material_of(const Scene& scene, const Mesh& mesh) {
                : scene.materials[static_cast<std::size_t>(mesh.material)];
 }
 
+std::vector<const Material*> looks_of(const Scene& scene, const Mesh& mesh) {
+    std::vector<const Material*> out = {&material_of(scene, mesh)};
+    const auto index = static_cast<std::size_t>(mesh.material);
+    const std::size_t count = scene.extremes.size() / 2;
+    if (mesh.material == kDefaultMaterial || index >= count) return out;
+    out.insert(out.end(), {&scene.extremes[index], &scene.extremes[count + index]});
+    return out;
+}
+
 std::size_t material_row(const Scene& scene, const Mesh& mesh) {
     return mesh.material == kDefaultMaterial ? scene.materials.size()
                                              : static_cast<std::size_t>(mesh.material);

@@ -43,6 +43,7 @@ struct TextureUse {
     int uv_set = 0;                    // 0 or 1
     glm::mat3 uv_from_texcoord{1.0f};  // KHR_texture_transform
     bool present() const { return texture >= 0; }
+    bool operator==(const TextureUse&) const = default;
 };
 
 enum class AlphaMode { opaque, mask, blend };
@@ -80,6 +81,7 @@ struct Material {
     TextureUse sheen_color_texture;      // sRGB
     float sheen_roughness = 0.0f;        // perceptual
     TextureUse sheen_roughness_texture;  // linear; A
+    bool operator==(const Material&) const = default;
 };
 
 /// Reflectance head on of the material's dielectric part, before the colour's and weight's textures
@@ -195,10 +197,14 @@ struct SceneRevisions {
     std::uint32_t placement = 0;  // instances
     std::uint32_t lights = 0;     // lights and their aimed profiles
     std::uint32_t cameras = 0;
+    std::uint32_t materials = 0;
     bool operator==(const SceneRevisions&) const = default;
 
     /// The numbers that decide where surfaces are.
     std::array<std::uint32_t, 2> surfaces() const { return {geometry, placement}; }
+
+    /// Those that decide how they look, too.
+    std::array<std::uint32_t, 3> looks() const { return {geometry, placement, materials}; }
 };
 
 /// Everything that is drawn and lit. The builder checks indices: the renderer trusts
@@ -208,6 +214,8 @@ struct Scene {
     std::vector<Image> images;
     std::vector<Texture> textures;
     std::vector<Material> materials;
+    // Where the animation drives factors of materials: all with their least, then their greatest.
+    std::vector<Material> extremes;
     std::vector<Mesh> meshes;
     std::vector<Instance> instances;
     std::vector<SceneLight> lights;
@@ -237,6 +245,9 @@ std::size_t triangle_count(const Scene& scene);
 
 /// The material that a mesh shows.
 const Material& material_of(const Scene& scene, const Mesh& mesh);
+
+/// The material that a mesh shows, and where an animation drives materials its extremes.
+std::vector<const Material*> looks_of(const Scene& scene, const Mesh& mesh);
 
 /// Its place where rows of the default material follow those of Scene::materials.
 std::size_t material_row(const Scene& scene, const Mesh& mesh);

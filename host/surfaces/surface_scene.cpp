@@ -92,7 +92,10 @@ void SurfaceScene::upload_rows(const Tuning& tuning) {
     upload_texels(gpu_, tuning, scene_, table, texels_.reserve(table.texels()));
 }
 
-void SurfaceScene::refresh_vertices() {
+void SurfaceScene::refresh() {
+    if (rewrite_materials(rows_, scene_, solid_)) {
+        upload<SurfaceMaterial>(gpu_, materials_.get(), rows_.materials);
+    }
     rewrite_vertices(rows_, scene_, solid_, [&](std::size_t first, std::span<const float> rows) {
         gpu_.queue.enqueueWriteBuffer(vertices_.get(), CL_TRUE, first * sizeof(float),
                                       rows.size_bytes(), rows.data());
@@ -100,7 +103,7 @@ void SurfaceScene::refresh_vertices() {
 }
 
 SurfaceBuffers SurfaceScene::at(std::span<const Draw> draws) {
-    refresh_vertices();
+    refresh();
     if (drawn_.read()) drawn_.read.wait();
     drawn_.rows.clear();
     for (const Draw& draw : draws) drawn_.rows.push_back(draw.row);

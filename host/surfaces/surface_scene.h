@@ -22,23 +22,23 @@ std::vector<uint> instance_blocks(std::span<const InstanceRow> rows, uint triang
 /// mip levels. Only attributes that the features read are there; surfaces that blend are not.
 class SurfaceScene {
  public:
-    /// The scene must outlive this; its materials and textures must stay as they are and its meshes
-    /// as many. Throws Error when the device cannot hold it, or an image is too large.
+    /// The scene must outlive this; its textures must stay as they are, its meshes and materials as
+    /// many. Throws Error when the device cannot hold it, or an image is too large.
     SurfaceScene(const Gpu& gpu, const Tuning& tuning, const Scene& scene,
                  const SurfaceFeatures& features);
     ~SurfaceScene();
     SurfaceScene(const SurfaceScene&) = delete;
     SurfaceScene& operator=(const SurfaceScene&) = delete;
 
-    /// The scene with these instances, numbered as their rows say and ascending; vertices are
-    /// uploaded anew where a mesh's revision says that they changed. Valid until the next call.
+    /// The scene with these instances, numbered as their rows say and ascending; materials and
+    /// vertices are uploaded anew where revisions say that they changed. Valid until the next call.
     SurfaceBuffers at(std::span<const Draw> draws);
 
     const SurfaceFeatures& features() const { return features_; }
 
  private:
     void upload_rows(const Tuning& tuning);
-    void refresh_vertices();
+    void refresh();
 
     Gpu gpu_;
     const Scene& scene_;

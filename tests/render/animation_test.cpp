@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A renderer shows what moved in its scene: the picture is that of a renderer made for it.
+#include <cctype>
+#include <map>
+
 #include "host/base/error.h"
 #include "host/scene/animated_scene.h"
 #include "tests/support/gltf_builder.h"
@@ -88,6 +91,143 @@ TEST(Animation, TrianglesWithoutAreaAtFirstBecomeWhatAStillFileShows) {
                           at_once(time == 1.0 ? open : folded))
                     << static_cast<int>(by) << " at " << time;
             }
+        }
+    }
+}
+
+// A masked quad with maps before a triangle, and a lamp. What no surface shows at second 0 a clip
+// gives it until second 1: emission, metal, a specular colour, a texture transform, and holes.
+GltfBuilder file_with_changing_material(double second) {
+    GltfBuilder file = file_with_flap(FoldedBy::morph_target, 0.0f, false);
+    const Blob checks = {255, 255, 255, 255, 99, 99, 99, 0, 99, 99, 255, 255, 255, 255, 99, 0};
+    const int texture = file.add_texture(encode_image("png", 2, 4, checks), "image/png");
+    json& material = file.root["materials"][0];
+    const json moved = {{"KHR_texture_transform", {{"offset", {0, 0}}}}};
+    const float share = static_cast<float>(second);
+    material = {{"normalTexture", material["normalTexture"]},
+                {"alphaMode", "MASK"},
+                {"alphaCutoff", 0.75f * share},
+                {"emissiveFactor", {0.5 * second, second, 0}},
+                {"pbrMetallicRoughness",
+                 {{"metallicFactor", second},
+                  {"roughnessFactor", 0.5},
+                  {"baseColorTexture", {{"index", texture}, {"extensions", moved}}}}},
+                {"extensions",
+                 {{"KHR_materials_specular", {{"specularColorFactor", {1, 1 - second, 1}}}}}}};
+    const std::string offset =
+        "/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/offset";
+    material[json::json_pointer(offset)] = {0.25 * second, 0};
+    return file;
+}
+
+// The same, as a clip.
+GltfBuilder file_with_material_clip() {
+    const json first = file_with_changing_material(0.0).root["materials"][0].flatten();
+    const json last = file_with_changing_material(1.0).root["materials"][0].flatten();
+    GltfBuilder file = file_with_changing_material(0.0);
+    const int times = file.add_floats("SCALAR", {0, 1});
+    std::map<std::string, std::pair<std::vector<float>, std::vector<float>>> driven;
+    for (const auto& [path, value] : last.items()) {
+        if (!value.is_number() || path.ends_with("index")) continue;
+        const bool is_in_array = std::isdigit(static_cast<unsigned char>(path.back())) != 0;
+        auto& [from, to] = driven[is_in_array ? path.substr(0, path.rfind('/')) : path];
+        from.push_back(first.at(path));
+        to.push_back(value);
+    }
+    json clip;
+    for (const auto& [path, keys] : driven) {
+        std::vector<float> values = keys.first;
+        values.insert(values.end(), keys.second.begin(), keys.second.end());
+        const char* const types[] = {"", "SCALAR", "VEC2", "VEC3"};
+        const int output = file.add_floats(types[keys.first.size()], values);
+        clip["samplers"].push_back({{"input", times}, {"output", output}});
+        const json extension = {{"KHR_animation_pointer", {{"pointer", "/materials/0" + path}}}};
+        clip["channels"].push_back({{"sampler", clip["samplers"].size() - 1},
+                                    {"target", {{"path", "pointer"}, {"extensions", extension}}}});
+    }
+    file.add("animations", clip);
+    return file;
+}
+
+// A renderer that was made where the material had nothing shows all that it has later.
+TEST(Animation, MaterialsThatAClipDrivesReachEveryRenderer) {
+    const TempFolder folder;
+    const auto path = folder.path() / "clip.glb";
+    write_file(path, file_with_material_clip().glb());
+    AnimatedScene moving(path, {});
+    const Scene stills[] = {load(file_with_changing_material(0.0)),
+                            load(file_with_changing_material(1.0))};
+    const Camera camera = frame_box(bounds(stills[0]));
+    const struct {
+        RendererKind renderer;
+        Geometry geometry;
+        Shadows shadows = Shadows::off;
+    } cases[] = {{RendererKind::deferred, Geometry::compute, Shadows::exact},
+                 {RendererKind::deferred, Geometry::ids},
+                 {RendererKind::deferred, Geometry::planes},
+                 {RendererKind::forward, Geometry::automatic},
+                 {RendererKind::forward_plus, Geometry::automatic}};
+    for (const auto& c : cases) {
+        RenderSettings settings = small_settings(64, 48, 0);
+        settings.renderer = c.renderer;
+        settings.geometry = c.geometry;
+        settings.shadows = c.shadows;
+        moving.set_time(0.0);
+        Renderer renderer(moving.scene(), settings);
+        std::vector<float> radiance[2];
+        for (const int second : {0, 1, 0}) {
+            moving.set_time(second);
+            radiance[second] = renderer.render(camera, 0.0).radiance;
+            EXPECT_EQ(radiance[second],
+                      Renderer(stills[second], settings).render(camera, 0.0).radiance)
+                << static_cast<int>(c.renderer) << " " << static_cast<int>(c.geometry) << " at "
+                << second;
+        }
+        EXPECT_NE(radiance[0], radiance[1]);
+    }
+}
+
+// Node 0 is the quad with the normal map, the last one the only spot light.
+GltfBuilder file_with_shown_nodes(bool visible, bool moves) {
+    GltfBuilder file = file_with_flap(FoldedBy::morph_target, 0.0f, false);
+    json& lights = file.root["extensions"]["KHR_lights_punctual"]["lights"];
+    lights.push_back({{"type", "spot"}, {"intensity", 50}, {"range", 20}});
+    const int lamp = file.add_node(
+        {{"translation", {0, 0, 2}}, {"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}});
+    const int times = file.add_floats("SCALAR", {0, 1});
+    const int output = file.add_floats("SCALAR", {0, 1});
+    json clip = {{"samplers", {{{"input", times}, {"output", output}, {"interpolation", "STEP"}}}}};
+    for (const int node : {0, lamp}) {
+        const std::string pointer =
+            "/nodes/" + std::to_string(node) + "/extensions/KHR_node_visibility/visible";
+        file.root[json::json_pointer(pointer)] = visible;
+        const json extension = {{"KHR_animation_pointer", {{"pointer", pointer}}}};
+        clip["channels"].push_back(
+            {{"sampler", 0}, {"target", {{"path", "pointer"}, {"extensions", extension}}}});
+    }
+    if (moves) file.add("animations", clip);
+    return file;
+}
+
+TEST(Animation, NodesThatAreHiddenAtFirstShowLater) {
+    const TempFolder folder;
+    const auto path = folder.path() / "shown.glb";
+    write_file(path, file_with_shown_nodes(false, true).glb());
+    AnimatedScene moving(path, {});
+    const Scene stills[] = {load(file_with_shown_nodes(false, false)),
+                            load(file_with_shown_nodes(true, false))};
+    const Camera camera = frame_box(bounds(stills[1]));
+    for (const RendererKind kind : {RendererKind::deferred, RendererKind::forward}) {
+        RenderSettings settings = small_settings(64, 48, 0);
+        settings.renderer = kind;
+        if (kind == RendererKind::deferred) settings.shadows = Shadows::exact;
+        moving.set_time(0.0);
+        Renderer renderer(moving.scene(), settings);
+        for (const int second : {0, 1, 0}) {
+            moving.set_time(second);
+            EXPECT_EQ(renderer.render(camera, 0.0).radiance,
+                      Renderer(stills[second], settings).render(camera, 0.0).radiance)
+                << static_cast<int>(kind) << " at " << second;
         }
     }
 }

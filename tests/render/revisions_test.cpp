@@ -20,6 +20,7 @@ RenderSettings settings_with_shadows() {
 // A triangle in front of a larger one, a lamp, and a camera that a clip moves.
 GltfBuilder file_with_moving_camera() {
     GltfBuilder file = triangle_file();
+    file.primitive()["material"] = file.add("materials", {{"doubleSided", true}});
     file.add_node({{"mesh", 0}, {"scale", {4, 4, 1}}, {"translation", {-1, -1, -1}}});
     file.root["extensionsUsed"] = {"KHR_lights_punctual"};
     file.root["extensions"]["KHR_lights_punctual"]["lights"] = {
@@ -66,7 +67,8 @@ struct Part {
     const char* name;
     std::uint32_t SceneRevisions::*revision;
     void (*change)(Scene&);
-    bool moves_surfaces;
+    std::uint64_t shadow_scenes_built;
+    bool makes_surfaces;
     std::uint64_t lights_uploaded;
 };
 
@@ -76,13 +78,15 @@ constexpr Part kParts[] = {
          for (glm::vec3& p : scene.meshes[0].positions) p.x += 0.25f;
          ++scene.meshes[0].revision;
      },
-     true, 0},
+     1, true, 0},
     {"placement", &SceneRevisions::placement,
-     [](Scene& scene) { scene.instances[0].world_from_object[3].x += 0.25; }, true, 0},
-    {"lights", &SceneRevisions::lights, [](Scene& scene) { scene.lights[0].position.x += 0.25; },
+     [](Scene& scene) { scene.instances[0].world_from_object[3].x += 0.25; }, 1, true, 0},
+    {"lights", &SceneRevisions::lights, [](Scene& scene) { scene.lights[0].position.x += 0.25; }, 0,
      false, 1},
     {"cameras", &SceneRevisions::cameras,
-     [](Scene& scene) { scene.cameras[0].world_from_camera[3].x += 0.25; }, false, 0},
+     [](Scene& scene) { scene.cameras[0].world_from_camera[3].x += 0.25; }, 0, false, 0},
+    {"materials", &SceneRevisions::materials,
+     [](Scene& scene) { scene.materials[0].base_color.x *= 0.5f; }, 0, true, 0},
 };
 
 TEST(Revisions, EachMakesItsOwnPartAnew) {
@@ -97,9 +101,9 @@ TEST(Revisions, EachMakesItsOwnPartAnew) {
         part.change(scene);
         ++(scene.revisions.*part.revision);
         const Frame frame = renderer.render(camera, 0.0);
-        EXPECT_EQ(frame.stats.shadow_scenes_built, part.moves_surfaces ? 1u : 0u) << part.name;
+        EXPECT_EQ(frame.stats.shadow_scenes_built, part.shadow_scenes_built) << part.name;
         EXPECT_EQ(frame.stats.lights_uploaded, part.lights_uploaded) << part.name;
-        EXPECT_EQ(has_stage(frame, "resolve_surfaces"), part.moves_surfaces) << part.name;
+        EXPECT_EQ(has_stage(frame, "resolve_surfaces"), part.makes_surfaces) << part.name;
         EXPECT_EQ(frame.radiance, Renderer(scene, settings).render(camera, 0.0).radiance)
             << part.name;
     }

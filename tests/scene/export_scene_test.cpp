@@ -73,6 +73,15 @@ TEST(ExportScene, KeepsWhatTheLoaderMadeOfAFile) {
     EXPECT_EQ(scene_difference(scene, round_trip(scene, "x.glb")), "");
 }
 
+// As an animation of visibility hides it for a while.
+TEST(ExportScene, AnInstanceThatIsAPointIsLeftOut) {
+    Scene scene = make_generated_scene("grid");
+    scene.instances.back().world_from_object = glm::dmat4(glm::dmat3(0.0));
+    const Scene back = round_trip(scene, "x.glb");
+    scene.instances.pop_back();
+    EXPECT_EQ(scene.instances, back.instances);
+}
+
 // As the export command places it.
 TEST(ExportScene, ALightThatFollowsTheCameraTurnsWithIt) {
     SceneLight light;

@@ -26,6 +26,7 @@ constexpr int kShort = 5122;
 constexpr int kUnsignedShort = 5123;
 constexpr int kUnsignedInt = 5125;
 constexpr int kFloat = 5126;
+constexpr int kDouble = 5130;  // KHR_accessor_float64
 
 /// The bytes of values in memory.
 template <typename T>

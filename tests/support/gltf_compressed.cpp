@@ -77,6 +77,43 @@ GltfBuilder meshopt_quad(const std::string& index_mode) {
     return file;
 }
 
+Blob hex_bytes(const std::string& digits) {
+    Blob out;
+    for (std::size_t i = 0; i + 1 < digits.size(); i += 2) {
+        out.push_back(static_cast<unsigned char>(std::stoi(digits.substr(i, 2), nullptr, 16)));
+    }
+    return out;
+}
+
+// The streams are made by the encoder of meshoptimizer 1.3.
+GltfBuilder khr_meshopt_quad() {
+    GltfBuilder file = meshopt_quad("INDICES");
+    const int positions = file.add_view(
+        hex_bytes("a1eaeaaa007f007f00007f00000000000000000000000000000000000000000000120100"));
+    const json view = file.root["bufferViews"][static_cast<std::size_t>(positions)];
+    for (const char* key : {"byteOffset", "byteLength"}) {
+        file.root["bufferViews"][0]["extensions"]["EXT_meshopt_compression"][key] = view.at(key);
+    }
+    const int colors = add_meshopt_view(
+        file,
+        hex_bytes("a1ff0001825c5b7e0000feeee9ff00007dcdcc8000fe7d33b2fd00000000000000000000000000"
+                  "0000000000000000008000"),
+        {"ATTRIBUTES", "COLOR", 6, 4});
+    file.primitive()["attributes"]["COLOR_0"] =
+        file.add("accessors", {{"bufferView", colors},
+                               {"componentType", kUnsignedByte},
+                               {"normalized", true},
+                               {"type", "VEC4"},
+                               {"count", 4}});
+    add_fallback_buffer(file);
+    std::string text = file.root.dump();
+    for (std::size_t at = 0; (at = text.find("EXT_meshopt", at)) != std::string::npos;) {
+        text.replace(at, 3, "KHR");
+    }
+    file.root = json::parse(text);
+    return file;
+}
+
 Blob draco_quad(int encoding_method) {
     draco::TriangleSoupMeshBuilder builder;
     builder.Start(2);

@@ -28,6 +28,13 @@ void add_meshopt_quad(GltfBuilder& file, const std::string& index_mode);
 /// A file of such a quad alone.
 GltfBuilder meshopt_quad(const std::string& index_mode);
 
+/// The same with KHR_meshopt_compression: version 1 of the vertex format, and colours through the
+/// filter COLOR: 0 0 0 0, 255 255 255 255, 254 1 0 128, 10 200 30 76.
+GltfBuilder khr_meshopt_quad();
+
+/// The bytes that hexadecimal digits stand for.
+Blob hex_bytes(const std::string& digits);
+
 constexpr int kDracoSequential = 0;
 constexpr int kDracoEdgebreaker = 1;
 

@@ -120,6 +120,18 @@ void add_lights_and_cameras(GltfBuilder& file) {
     }
 }
 
+// A hidden node above a mesh, a light and a camera.
+void add_hidden_nodes(GltfBuilder& file) {
+    file.add_node({{"mesh", 0},
+                   {"camera", 0},
+                   {"translation", {0, 3, 0}},
+                   {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    json& nodes = file.root["nodes"];
+    file.root["scenes"][0]["nodes"].back() = nodes.size();
+    file.add("nodes", {{"children", {nodes.size() - 1}},
+                       {"extensions", {{"KHR_node_visibility", {{"visible", false}}}}}});
+}
+
 }  // namespace
 
 const Blob& webp_image() {
@@ -135,6 +147,7 @@ GltfBuilder every_feature_file() {
     add_materials(file);
     add_strip_and_fan(file);
     add_lights_and_cameras(file);
+    add_hidden_nodes(file);
     add_meshopt_quad(file, "TRIANGLES");
     add_draco_quad(file, draco_quad(kDracoEdgebreaker));
     add_fallback_buffer(file);
@@ -144,7 +157,8 @@ GltfBuilder every_feature_file() {
         "KHR_materials_unlit",        "KHR_materials_ior",
         "KHR_materials_specular",     "KHR_materials_clearcoat",
         "KHR_materials_sheen",        "EXT_meshopt_compression",
-        "KHR_draco_mesh_compression", "EXT_texture_webp"};
+        "KHR_draco_mesh_compression", "EXT_texture_webp",
+        "KHR_node_visibility"};
     file.root["extensionsUsed"] = file.root["extensionsRequired"];
     return file;
 }
@@ -172,6 +186,27 @@ void add_profile_lights(GltfBuilder& file) {
     file.add_node(
         {{"extensions",
           {{"EXT_lights_ies", {{"light", 0}, {"multiplier", 2}, {"color", {0.5, 1, 0.25}}}}}}});
+}
+
+// A clip that drives a colour of material 0 and the visibility of node 1.
+void add_pointers(GltfBuilder& file) {
+    const std::string visible = "/nodes/1/extensions/KHR_node_visibility/visible";
+    file.root[json::json_pointer(visible)] = true;
+    const int input = file.add_floats("SCALAR", {0, 1});
+    const int colors = file.add_accessor(bytes_of<double>({0.5, 1, 1, 0.75, 0, 0, 0, 1}),
+                                         {kDouble, "VEC4", 2, false, 0});
+    const int shown = file.add_accessor({1, 0}, {kUnsignedByte, "SCALAR", 2, false, 0});
+    json clip = {{"samplers",
+                  {{{"input", input}, {"output", colors}},
+                   {{"input", input}, {"output", shown}, {"interpolation", "STEP"}}}}};
+    for (const std::string& pointer :
+         {std::string("/materials/0/extensions/KHR_materials_pbrSpecularGlossiness/diffuseFactor"),
+          visible}) {
+        const json extension = {{"KHR_animation_pointer", {{"pointer", pointer}}}};
+        clip["channels"].push_back({{"sampler", clip.value("channels", json::array()).size()},
+                                    {"target", {{"path", "pointer"}, {"extensions", extension}}}});
+    }
+    file.add("animations", clip);
 }
 
 std::filesystem::path write_with_files(GltfBuilder file, const std::filesystem::path& folder) {
@@ -213,9 +248,15 @@ GltfBuilder converted_features_file() {
     file.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
         {"TRANSLATION", shifts}, {"ROTATION", turns}};
     add_profile_lights(file);
-    file.root["extensionsRequired"] = {"EXT_lights_ies", "KHR_materials_pbrSpecularGlossiness",
-                                       "KHR_materials_variants", "EXT_mesh_gpu_instancing",
-                                       "KHR_materials_transmission"};
+    add_pointers(file);
+    file.root["extensionsRequired"] = {"EXT_lights_ies",
+                                       "KHR_materials_pbrSpecularGlossiness",
+                                       "KHR_materials_variants",
+                                       "EXT_mesh_gpu_instancing",
+                                       "KHR_materials_transmission",
+                                       "KHR_node_visibility",
+                                       "KHR_animation_pointer",
+                                       "KHR_accessor_float64"};
     file.root["extensionsUsed"] = file.root["extensionsRequired"];
     return file;
 }
@@ -227,6 +268,7 @@ std::vector<GltfBuilder> gltf_seeds() {
             triangle_file(),
             meshopt_quad("TRIANGLES"),
             meshopt_quad("INDICES"),
+            khr_meshopt_quad(),
             draco_file(draco_quad(kDracoEdgebreaker)),
             draco_file(draco_quad(kDracoSequential))};
 }

@@ -14,17 +14,17 @@
 namespace kilolux {
 namespace {
 
-// Materials that some instance shows; the default one where a mesh has none.
+// Materials that some instance shows at some time, each once.
 std::vector<Material> materials_in_use(const Scene& scene) {
     std::vector<bool> used(scene.materials.size() + 1, false);
-    for (const Instance& instance : scene.instances) {
-        used[material_row(scene, scene.meshes[static_cast<std::size_t>(instance.mesh)])] = true;
-    }
     std::vector<Material> materials;
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        if (used[i]) materials.push_back(scene.materials[i]);
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        const std::size_t row = material_row(scene, mesh);
+        if (used[row]) continue;
+        used[row] = true;
+        for (const Material* material : looks_of(scene, mesh)) materials.push_back(*material);
     }
-    if (used.back()) materials.emplace_back();
     return materials;
 }
 

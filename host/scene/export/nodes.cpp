@@ -196,7 +196,8 @@ ExportedNodes export_nodes(const Scene& scene, const std::vector<int>& mesh_of) 
     for (const SceneCamera& camera : scene.cameras) add_camera(out, camera);
     for (const Instance& instance : scene.instances) {
         const int mesh = mesh_of[static_cast<std::size_t>(instance.mesh)];
-        if (mesh < 0) continue;
+        const bool is_point = glm::dmat3(instance.world_from_object) == glm::dmat3(0.0);
+        if (mesh < 0 || is_point) continue;
         out.roots.push_back(add_placed(out.nodes, instance.world_from_object, {{"mesh", mesh}}));
     }
     for (const SceneLight& light : scene.lights) {

@@ -3,12 +3,13 @@
 
 #include <algorithm>
 
+#include "host/scene/gltf/json/animated_property.h"
 #include "host/scene/gltf/mesh/accessor.h"
 
 namespace kilolux {
 namespace {
 
-using Values = std::vector<double>;  // of one key: 3, 4, or as many as there are morph targets
+using Values = std::vector<double>;  // of one key: up to 4, or as many as there are morph targets
 
 enum class Interpolation { step, linear, cubic };
 
@@ -47,18 +48,29 @@ const std::vector<float>& read_times(const GltfDocument& document, int accessor)
     return document.key_times.emplace(accessor, std::move(times)).first->second;
 }
 
-Track open_track(const GltfDocument& document, const tinygltf::AnimationSampler& sampler,
-                 std::size_t components, const std::string& where) {
+Track open_track(const GltfDocument& document, const AnimatedProperty& property) {
+    const tinygltf::Animation& animation = document.model.animations[property.clip];
+    const std::string where = element_name("animations", property.clip) + "." +
+                              element_name("channels", property.channel);
+    const auto index = static_cast<std::size_t>(animation.channels[property.channel].sampler);
+    if (index >= animation.samplers.size()) {
+        document.fail(where, "sampler is {}, must be below {}", index, animation.samplers.size());
+    }
+    const tinygltf::AnimationSampler& sampler = animation.samplers[index];
     Track track;
     track.times = read_times(document, sampler.input);
     track.output = open_accessor(document, sampler.output);
+    const std::size_t components = std::max<std::size_t>(property.length, 1);
     expect_components(track.output, {components}, "an animation of this path");
     if (sampler.interpolation == "STEP") track.interpolation = Interpolation::step;
     if (sampler.interpolation == "CUBICSPLINE") track.interpolation = Interpolation::cubic;
+    if (property.path == kVisibilityPath && track.interpolation != Interpolation::step) {
+        document.fail(where, "interpolation must be STEP, since it drives a boolean");
+    }
     const std::size_t values_per_key = track.interpolation == Interpolation::cubic ? 3 : 1;
     const std::size_t keys = track.times.size() * values_per_key;
     track.per_key = keys == 0 ? 0 : track.output.count / keys;
-    const bool fits = track.per_key >= 1 && (components == 1 || track.per_key == 1) &&
+    const bool fits = track.per_key >= 1 && (property.length == 0 || track.per_key == 1) &&
                       track.per_key * keys == track.output.count;
     if (!fits) {
         document.fail(where, "output has {} values, which do not go with its {} key times",
@@ -82,8 +94,8 @@ Values read_key(const Track& track, std::size_t key, std::size_t slot) {
     const std::size_t slots = track.interpolation == Interpolation::cubic ? 3 : 1;
     Values values;
     for (std::size_t i = 0; i < track.per_key; ++i) {
-        const glm::vec4 element =
-            read_vector(track.output, (key * slots + slot) * track.per_key + i);
+        const glm::dvec4 element =
+            read_exact(track.output, (key * slots + slot) * track.per_key + i);
         for (std::size_t c = 0; c < track.output.components; ++c) {
             values.push_back(element[static_cast<glm::length_t>(c)]);
         }
@@ -135,16 +147,17 @@ Values evaluate(const Track& track, double time, bool is_rotation) {
                   is_rotation);
 }
 
-// Components of an output of the path; 0 for a path that is not supported.
-std::size_t components_of(const std::string& path) {
-    if (path == "translation" || path == "scale") return 3;
-    if (path == "rotation") return 4;
-    return path == "weights" ? 1 : 0;
+// At the options' time.
+Values value_of(const GltfDocument& document, const AnimatedProperty& property) {
+    return evaluate(open_track(document, property), document.options.time,
+                    property.array == "nodes" && property.path == "rotation");
 }
 
 void assign(NodePose& pose, const std::string& path, Values values) {
     if (path == "weights") {
         pose.weights = std::move(values);
+    } else if (path == kVisibilityPath) {
+        pose.visibility = values[0] != 0.0 ? NodeVisibility::visible : NodeVisibility::hidden_now;
     } else if (path == "rotation") {
         pose.rotation = quat_of(values);
     } else {
@@ -153,61 +166,90 @@ void assign(NodePose& pose, const std::string& path, Values values) {
     }
 }
 
-void apply_channel(const GltfDocument& document, const tinygltf::Animation& animation,
-                   const tinygltf::AnimationChannel& channel, const std::string& where,
-                   NodePose& pose) {
-    const std::size_t components = components_of(channel.target_path);
-    if (components == 0) {
-        document.leave_out("animations of '" + shown_uri(channel.target_path) + "' are left out");
-        return;
+bool needs_no_matrix(const std::string& path) {
+    return path != "weights" && path != kVisibilityPath;
+}
+
+// The least or the greatest numbers that a track takes: those of its keys, and of a cubic spline
+// the control points between them, whose hull holds it.
+Values extreme_of(const Track& track, bool greatest) {
+    Values out = read_key(track, 0, track.interpolation == Interpolation::cubic ? 1 : 0);
+    const auto take = [&](const Values& values, const Values& slope, double length) {
+        for (std::size_t i = 0; i < out.size(); ++i) {
+            const double value = values[i] + (slope.empty() ? 0.0 : slope[i] * length / 3.0);
+            out[i] = greatest ? std::max(out[i], value) : std::min(out[i], value);
+        }
+    };
+    for (std::size_t k = 0; k < track.times.size(); ++k) {
+        if (track.interpolation != Interpolation::cubic) {
+            take(read_key(track, k, 0), {}, 0.0);
+            continue;
+        }
+        const Values value = read_key(track, k, 1);
+        const auto length = [&](std::size_t from) {
+            return static_cast<double>(track.times[from + 1]) - track.times[from];
+        };
+        take(value, {}, 0.0);
+        if (k > 0) take(value, read_key(track, k, 0), -length(k - 1));
+        if (k + 1 < track.times.size()) take(value, read_key(track, k, 2), length(k));
     }
-    if (pose.has_matrix && channel.target_path != "weights") {
-        document.leave_out("animations of nodes that have a matrix are left out");
-        return;
-    }
-    const auto sampler = static_cast<std::size_t>(channel.sampler);
-    if (sampler >= animation.samplers.size()) {
-        document.fail(where, "sampler is {}, must be below {}", sampler, animation.samplers.size());
-    }
-    const Track track = open_track(document, animation.samplers[sampler], components, where);
-    assign(pose, channel.target_path,
-           evaluate(track, document.options.time, channel.target_path == "rotation"));
+    return out;
 }
 
 }  // namespace
 
 void apply_animations(const GltfDocument& document, std::vector<NodePose>& poses) {
-    std::set<std::pair<int, std::string>> driven;
-    for (const std::size_t a : document.clips) {
-        const tinygltf::Animation& animation = document.model.animations[a];
-        for (std::size_t c = 0; c < animation.channels.size(); ++c) {
-            const tinygltf::AnimationChannel& channel = animation.channels[c];
-            if (channel.target_node < 0) continue;
-            if (!driven.emplace(channel.target_node, channel.target_path).second) continue;
-            const std::string where =
-                element_name("animations", a) + "." + element_name("channels", c);
-            apply_channel(document, animation, channel, where,
-                          poses[static_cast<std::size_t>(channel.target_node)]);
+    for (const AnimatedProperty& property : document.animated) {
+        if (property.array != "nodes") continue;
+        NodePose& pose = poses[property.element];
+        if (pose.has_matrix && needs_no_matrix(property.path)) {
+            document.leave_out("animations of nodes that have a matrix are left out");
+        } else {
+            assign(pose, property.path, value_of(document, property));
         }
     }
 }
 
-bool has_animations(const GltfDocument& document) {
-    const auto drives = [](const tinygltf::AnimationChannel& c) { return c.target_node >= 0; };
-    return std::any_of(document.clips.begin(), document.clips.end(), [&](std::size_t a) {
-        const auto& channels = document.model.animations[a].channels;
-        return std::any_of(channels.begin(), channels.end(), drives);
-    });
+void animate_elements(GltfDocument& document) {
+    for (const AnimatedProperty& property : document.animated) {
+        if (auto* elements = json_elements(document, property.array)) {
+            set_property((*elements)[property.element], property, value_of(document, property));
+        } else if (property.array == "meshes") {
+            document.model.meshes[property.element].weights = value_of(document, property);
+        }
+    }
+}
+
+bool drives_materials(const GltfDocument& document) {
+    return std::ranges::count(document.animated, "materials", &AnimatedProperty::array) > 0;
+}
+
+std::vector<Material> extreme_materials(GltfDocument& document) {
+    std::vector<Material> out;
+    for (const bool greatest : {false, true}) {
+        for (const AnimatedProperty& property : document.animated) {
+            if (property.array != "materials") continue;
+            set_property(document.materials[property.element], property,
+                         extreme_of(open_track(document, property), greatest));
+        }
+        const std::vector<Material> extremes = convert_materials(document).materials;
+        out.insert(out.end(), extremes.begin(), extremes.end());
+    }
+    return out;
 }
 
 std::set<int> nodes_with_driven_weights(const GltfDocument& document) {
-    std::set<int> nodes;
-    for (const std::size_t a : document.clips) {
-        for (const auto& channel : document.model.animations[a].channels) {
-            if (channel.target_path == "weights") nodes.insert(channel.target_node);
+    std::set<int> out;
+    for (const AnimatedProperty& property : document.animated) {
+        if (property.path != "weights") continue;
+        const int element = static_cast<int>(property.element);
+        if (property.array == "nodes") out.insert(element);
+        for (std::size_t n = 0; property.array == "meshes" && n < document.model.nodes.size();
+             ++n) {
+            if (document.model.nodes[n].mesh == element) out.insert(static_cast<int>(n));
         }
     }
-    return nodes;
+    return out;
 }
 
 }  // namespace kilolux

@@ -2,14 +2,13 @@
 #include "host/scene/gltf/choices.h"
 
 #include <algorithm>
-#include <map>
 #include <numeric>
 
 #include "host/base/log.h"
 #include "host/base/suggest.h"
 #include "host/scene/gltf/extensions.h"
+#include "host/scene/gltf/json/animated_property.h"
 #include "host/scene/gltf/mesh/accessor.h"
-#include "host/scene/gltf/nodes.h"
 
 namespace kilolux {
 namespace {
@@ -53,33 +52,6 @@ Names clip_names(const GltfDocument& document) {
     Names names;
     for (const tinygltf::Animation& a : document.model.animations) names.push_back(a.name);
     return names;
-}
-
-std::string clip_name(const GltfDocument& document, std::size_t clip) {
-    const std::string& name = document.model.animations[clip].name;
-    return name.empty() ? element_name("animations", clip) : fmt::format("'{}'", shown_uri(name));
-}
-
-void warn_of_overlaps(const GltfDocument& document, const std::vector<std::size_t>& clips) {
-    std::map<std::pair<int, std::string>, std::size_t> driver;
-    std::string first;
-    std::size_t overlaps = 0;
-    for (const std::size_t clip : clips) {
-        for (const auto& channel : document.model.animations[clip].channels) {
-            if (channel.target_node < 0) continue;
-            const auto [entry, is_new] =
-                driver.try_emplace({channel.target_node, channel.target_path}, clip);
-            if (is_new || entry->second == clip || overlaps++ > 0) continue;
-            first = fmt::format("clips {} and {} both drive the {} of {}",
-                                clip_name(document, entry->second), clip_name(document, clip),
-                                shown_uri(channel.target_path),
-                                node_name(document, static_cast<std::size_t>(channel.target_node)));
-        }
-    }
-    if (overlaps == 0) return;
-    const std::string more =
-        overlaps > 1 ? fmt::format(", and {} more properties are driven twice", overlaps - 1) : "";
-    warn(fmt::format("{}: {}{}; the clip named first counts", document.base.file, first, more));
 }
 
 // The material that a primitive's mappings give a variant.
@@ -133,12 +105,16 @@ std::vector<std::size_t> asked_clips(const GltfDocument& document) {
 
 }  // namespace
 
+std::string clip_name(const GltfDocument& document, std::size_t clip) {
+    const std::string& name = document.model.animations[clip].name;
+    return name.empty() ? element_name("animations", clip) : fmt::format("'{}'", shown_uri(name));
+}
+
 std::vector<std::size_t> choose_clips(const GltfDocument& document) {
     std::vector<std::size_t> clips = asked_clips(document);
     for (const auto& [clip, why] : document.broken_animations) {
         if (std::ranges::count(clips, clip) > 0) throw Error(why);
     }
-    warn_of_overlaps(document, clips);
     return clips;
 }
 
@@ -180,9 +156,9 @@ std::vector<Clip> list_clips(const GltfDocument& document) {
             if (clip.plays) throw;
             clip.broken = error.what();
         }
-        clip.channels = static_cast<std::size_t>(
-            std::count_if(animation.channels.begin(), animation.channels.end(),
-                          [](const auto& channel) { return channel.target_node >= 0; }));
+        clip.channels = static_cast<std::size_t>(std::ranges::count_if(
+            animation.channels,
+            [&](const auto& channel) { return animated_property(document, channel).has_value(); }));
         clips.push_back(std::move(clip));
     }
     return clips;

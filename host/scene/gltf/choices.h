@@ -6,9 +6,11 @@
 namespace kilolux {
 
 /// The animations that play, in the order that the options name them: by default the first of the
-/// file. Warns, in one line, where several drive the same property of a node: the one named first
-/// counts. Throws UsageError, with the nearest name, for a clip that the file does not have.
+/// file. Throws UsageError, with the nearest name, for a clip that the file does not have.
 std::vector<std::size_t> choose_clips(const GltfDocument& document);
+
+/// "'walk'", or "animations[2]" of one without a name, for messages.
+std::string clip_name(const GltfDocument& document, std::size_t clip);
 
 /// The file's animations with their lengths.
 std::vector<Clip> list_clips(const GltfDocument& document);

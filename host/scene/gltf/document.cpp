@@ -10,6 +10,7 @@
 #include "host/scene/gltf/check.h"
 #include "host/scene/gltf/choices.h"
 #include "host/scene/gltf/extensions.h"
+#include "host/scene/gltf/json/animated_property.h"
 #include "host/scene/gltf/json/parse_model.h"
 #include "host/scene/gltf/json/used_parts.h"
 #include "host/scene/gltf/lights_cameras.h"
@@ -175,6 +176,7 @@ GltfDocument load_gltf_document(const std::filesystem::path& file, const LoadOpt
     report_cones(document);
     apply_variant(document);
     document.clips = choose_clips(document);
+    document.animated = list_animated_properties(document);
     resolve_views(document, used.views);
     return document;
 }

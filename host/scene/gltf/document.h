@@ -25,6 +25,16 @@
 
 namespace kilolux {
 
+/// A property that a channel of a playing animation drives.
+struct AnimatedProperty {
+    std::size_t clip = 0;     // index of the animation
+    std::size_t channel = 0;  // within it
+    std::string array{};      // "nodes", "extensions.KHR_lights_punctual.lights"
+    std::size_t element = 0;
+    std::string path{};      // within the element: "pbrMetallicRoughness.baseColorFactor"
+    std::size_t length = 0;  // numbers; 0: as many as the file says
+};
+
 /// A glTF file whose JSON is checked and whose buffers are in memory.
 ///
 /// Every index of `model` is in range except those that are relative to another element (an
@@ -32,15 +42,18 @@ namespace kilolux {
 struct GltfDocument {
     UriBase base;
     LoadOptions options;
-    // Without buffers, materials and lights; images keep uri, bufferView and mimeType only.
+    // Without buffers, materials, cameras and lights; images keep uri, bufferView and mimeType
+    // only.
     tinygltf::Model model;
     std::vector<nlohmann::json> materials;
+    std::vector<nlohmann::json> cameras;
     std::array<std::vector<nlohmann::json>, kLightExtensions.size()> lights;
     std::vector<std::optional<ByteSpan>> buffers;  // none: a placeholder without data, or not used
     std::vector<ByteSpan> views;                   // one per buffer view, decompressed
     std::vector<Bytes> owned;                      // what buffers, views and data point into
     std::vector<DataUri> data;                     // the JSON's long data URIs
     std::vector<std::size_t> clips;                // animations that play, first one first
+    std::vector<AnimatedProperty> animated;        // by them
     std::map<std::size_t, std::string> broken_animations;  // why, by index; empty in `model`
     std::unique_ptr<LoadBudget> budget;
     // Key times that apply_animations() has read, by accessor.

@@ -15,7 +15,8 @@ constexpr auto kRead = std::to_array<std::string_view>(
     {"KHR_texture_transform", "KHR_mesh_quantization", "KHR_materials_emissive_strength",
      "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness", "KHR_materials_variants",
      "EXT_mesh_gpu_instancing", "EXT_meshopt_compression", "KHR_draco_mesh_compression",
-     "EXT_texture_webp", "EXT_lights_ies"});
+     "EXT_texture_webp", "EXT_lights_ies", "KHR_meshopt_compression", "KHR_accessor_float64",
+     "KHR_node_visibility", "KHR_animation_pointer"});
 
 // What no still picture shows: metadata, sound, physics, what a user may point at.
 constexpr auto kUnseen =
@@ -31,8 +32,6 @@ constexpr auto kUnseen =
                                      "OMI_physics_body",        "OMI_physics_shape"});
 
 constexpr std::array kLeftOut = {
-    LeftOutExtension{"KHR_animation_pointer", "what it animates stands still"},
-    LeftOutExtension{"KHR_node_visibility", "hidden nodes are drawn"},
     LeftOutExtension{"MSFT_lod", "the finest level is drawn"},
 };
 
@@ -44,7 +43,6 @@ struct Converter {
 
 constexpr std::array kConverters = {
     Converter{"KHR_texture_basisu", "gltf-transform ktxdecompress in.glb out.glb decodes it"},
-    Converter{"KHR_meshopt_compression", "gltfpack -i in.glb -o out.glb decodes it"},
 };
 
 template <typename Row, std::size_t N>

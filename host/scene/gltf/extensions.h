@@ -21,6 +21,7 @@ T member_or(const tinygltf::Value& object, const std::string& key, const T& othe
     if (!object.Has(key)) return otherwise;
     const tinygltf::Value& value = object.Get(key);
     if constexpr (std::is_same_v<T, double>) return value.GetNumberAsDouble();
+    if constexpr (std::is_same_v<T, bool>) return value.template Get<bool>();
     if constexpr (std::is_same_v<T, int>) return value.GetNumberAsInt();
     if constexpr (std::is_same_v<T, std::string>) return value.template Get<std::string>();
 }

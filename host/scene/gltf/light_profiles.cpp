@@ -89,9 +89,10 @@ void add_profile_lights(const GltfDocument& document, const PlacedNodes& nodes, 
     scene.aimed_profiles.clear();
     for (const std::size_t n : nodes.in_scene) {
         const auto* use = find_extension(document.model.nodes[n].extensions, kExtension);
-        if (use == nullptr) continue;
+        if (use == nullptr || nodes.visibility[n] == NodeVisibility::hidden) continue;
         const auto web = static_cast<std::size_t>(member_or(*use, "light", 0));
         SceneLight light = light_of(*use, scene.webs[web], nodes.world_from_node[n]);
+        if (nodes.visibility[n] != NodeVisibility::visible) light.intensity = glm::vec3(0.0f);
         light.profile = static_cast<int>(scene.aimed_profiles.size());
         const bool mirrored = glm::determinant(glm::dmat3(nodes.world_from_node[n])) < 0.0;
         scene.aimed_profiles.push_back({web, mirrored});

@@ -11,7 +11,9 @@
 namespace kilolux {
 namespace {
 
-SceneLight convert_light(const nlohmann::json& source, std::string_view extension,
+using nlohmann::json;
+
+SceneLight convert_light(const json& source, std::string_view extension,
                          const glm::dmat4& world_from_node) {
     SceneLight out;
     const LightKind& kind = *find_light_kind(extension, source.at("type").get<std::string>());
@@ -24,7 +26,7 @@ SceneLight convert_light(const nlohmann::json& source, std::string_view extensio
             to_float(color[static_cast<std::size_t>(c)] * source.value("intensity", 1.0));
     }
     for (const LightNumber& number : kLightNumbers) {
-        const nlohmann::json* value = find_member(source, number.path);
+        const json* value = find_member(source, number.path);
         if (value != nullptr && kind.*number.has) out.*number.member = to_float(*value);
     }
     return out;
@@ -38,36 +40,38 @@ void require(const GltfDocument& document, bool holds, const std::string& where,
     document.fail(where, "is {}, must be {}", value, expected);
 }
 
-void read_perspective(const GltfDocument& document, const tinygltf::PerspectiveCamera& source,
-                      const std::string& where, SceneCamera& out) {
-    out.y_fov = source.yfov;
-    out.aspect = source.aspectRatio;
-    out.z_near = source.znear;
-    if (source.zfar != 0.0) out.z_far = source.zfar;
+void read_perspective(const GltfDocument& document, const json& source, const std::string& where,
+                      SceneCamera& out) {
+    out.y_fov = source.at("yfov");
+    out.aspect = source.value("aspectRatio", 0.0);
+    out.z_near = source.at("znear");
+    if (const double far = source.value("zfar", 0.0); far != 0.0) out.z_far = far;
     require(document, out.y_fov > 0.0 && out.y_fov < glm::pi<double>(), where + ".yfov", out.y_fov,
             "between 0 and pi");
     require(document, out.aspect >= 0.0, where + ".aspectRatio", out.aspect, "positive");
     require(document, out.z_near > 0.0, where + ".znear", out.z_near, "positive");
 }
 
-void read_orthographic(const GltfDocument& document, const tinygltf::OrthographicCamera& source,
-                       const std::string& where, SceneCamera& out) {
+void read_orthographic(const GltfDocument& document, const json& source, const std::string& where,
+                       SceneCamera& out) {
+    const double x_extent = source.at("xmag"), y_extent = source.at("ymag");
     out.orthographic = true;
-    out.y_extent = std::abs(source.ymag);
-    out.z_near = source.znear;
-    out.z_far = source.zfar;
-    require(document, source.xmag != 0.0, where + ".xmag", source.xmag, "other than 0");
-    require(document, source.ymag != 0.0, where + ".ymag", source.ymag, "other than 0");
+    out.y_extent = std::abs(y_extent);
+    out.z_near = source.at("znear");
+    out.z_far = source.at("zfar");
+    require(document, x_extent != 0.0, where + ".xmag", x_extent, "other than 0");
+    require(document, y_extent != 0.0, where + ".ymag", y_extent, "other than 0");
     require(document, out.z_near >= 0.0, where + ".znear", out.z_near, "at least 0");
-    out.aspect = std::abs(source.xmag) / out.y_extent;
+    out.aspect = std::abs(x_extent) / out.y_extent;
 }
 
 SceneCamera convert_camera(const GltfDocument& document, std::size_t index,
                            const glm::dmat4& world_from_node, const std::string& node) {
-    const tinygltf::Camera& source = document.model.cameras[index];
-    const std::string where = element_name("cameras", index);
+    const json& source = document.cameras[index];
     SceneCamera out;
-    out.name = source.name;
+    if (const json* name = find_member(source, "name"); name != nullptr && name->is_string()) {
+        out.name = *name;
+    }
     out.world_from_camera = world_from_node;
     const glm::dvec3 y(world_from_node[1]);
     const glm::dvec3 z(world_from_node[2]);
@@ -75,13 +79,11 @@ SceneCamera convert_camera(const GltfDocument& document, std::size_t index,
     if (!is_finite(world_from_node) || !(across > kLeastAxesSine)) {
         document.fail(node, "has a camera but a transform without direction");
     }
-    if (source.type == "orthographic") {
-        read_orthographic(document, source.orthographic, where + ".orthographic", out);
-    } else {
-        read_perspective(document, source.perspective, where + ".perspective", out);
-    }
-    require(document, out.z_far > out.z_near, where + "." + source.type + ".zfar", out.z_far,
-            "greater than znear");
+    const std::string type = source.at("type");
+    const std::string where = element_name("cameras", index) + "." + type;
+    const auto read = type == "orthographic" ? read_orthographic : read_perspective;
+    read(document, source.at(type), where, out);
+    require(document, out.z_far > out.z_near, where + ".zfar", out.z_far, "greater than znear");
     return out;
 }
 
@@ -100,6 +102,7 @@ bool aim_light(SceneLight& light, const glm::dmat4& world_from_node) {
 std::vector<SceneLight> convert_lights(const GltfDocument& document, const PlacedNodes& nodes) {
     std::vector<SceneLight> lights;
     for (const std::size_t n : nodes.in_scene) {
+        if (nodes.visibility[n] == NodeVisibility::hidden) continue;
         for (std::size_t e = 0; e < kLightExtensions.size(); ++e) {
             const std::string extension(kLightExtensions[e]);
             const auto* use = find_extension(document.model.nodes[n].extensions, extension);
@@ -107,6 +110,8 @@ std::vector<SceneLight> convert_lights(const GltfDocument& document, const Place
             const auto light = static_cast<std::size_t>(member_or(*use, "light", 0));
             lights.push_back(
                 convert_light(document.lights[e][light], extension, nodes.world_from_node[n]));
+            // A light that is hidden for a while stays, dark, so that kernels for its kind do.
+            if (nodes.visibility[n] != NodeVisibility::visible) lights.back().intensity = {};
         }
     }
     return lights;

@@ -7,6 +7,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "host/scene/gltf/animation.h"
+#include "host/scene/gltf/extensions.h"
 
 namespace kilolux {
 namespace {
@@ -16,6 +17,10 @@ constexpr std::size_t kNoNode = static_cast<std::size_t>(-1);
 NodePose rest_pose(const tinygltf::Node& node) {
     NodePose pose;
     pose.weights = node.weights;
+    const auto* visibility = find_extension(node.extensions, "KHR_node_visibility");
+    if (visibility != nullptr && !member_or(*visibility, "visible", true)) {
+        pose.visibility = NodeVisibility::hidden;
+    }
     if (!node.matrix.empty()) {
         pose.has_matrix = true;
         pose.matrix = glm::make_mat4(node.matrix.data());
@@ -116,10 +121,13 @@ PlacedNodes place_nodes(const GltfDocument& document) {
     apply_animations(document, poses);
     PlacedNodes out;
     out.world_from_node.resize(nodes.size());
+    out.visibility.resize(nodes.size());
     for (const std::size_t n : order) {
         const glm::dmat4 own = matrix_of(poses[n]);
-        out.world_from_node[n] =
-            parents[n] == kNoNode ? own : out.world_from_node[parents[n]] * own;
+        const bool is_root = parents[n] == kNoNode;
+        out.world_from_node[n] = is_root ? own : out.world_from_node[parents[n]] * own;
+        out.visibility[n] = is_root ? poses[n].visibility
+                                    : std::min(poses[n].visibility, out.visibility[parents[n]]);
     }
     for (NodePose& pose : poses) out.weights.push_back(std::move(pose.weights));
     out.in_scene = walk(document, scene_roots(document, roots));

@@ -7,8 +7,16 @@
 
 namespace kilolux {
 
-/// A node's own transform, and the morph weights that it gives its mesh.
+/// KHR_node_visibility. Of a node and those above it the least counts.
+enum class NodeVisibility {
+    hidden,      // at all times
+    hidden_now,  // an animation may show it
+    visible,
+};
+
+/// A node's own transform, whether it is visible, and the morph weights that it gives its mesh.
 struct NodePose {
+    NodeVisibility visibility = NodeVisibility::visible;
     bool has_matrix = false;
     glm::dmat4 matrix{1.0};  // when it has one, instead of:
     glm::dvec3 translation{0.0};
@@ -24,6 +32,7 @@ glm::dmat4 matrix_of(const NodePose& pose);
 struct PlacedNodes {
     std::vector<glm::dmat4> world_from_node;   // of every node of the file
     std::vector<std::vector<double>> weights;  // of every node; empty: the mesh's own
+    std::vector<NodeVisibility> visibility;    // of every node
     std::vector<std::size_t> in_scene;         // nodes of the drawn scene, parents first
 };
 

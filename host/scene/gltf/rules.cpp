@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "host/scene/gltf/mesh/meshopt.h"
 #include "host/scene/lights/light_kinds.h"
 #include "host/scene/material_table.h"
 
@@ -50,31 +51,38 @@ GltfRule where_type(std::string type, GltfRule rule) {
 }
 
 Rules buffer_rules() {
-    const std::string meshopt = "bufferViews[].extensions.EXT_meshopt_compression.";
-    return {
+    Rules rules = {
         required(integer("buffers[].byteLength", 0, kMaxBytes)),
         text("buffers[].uri"),
-        boolean("buffers[].extensions.EXT_meshopt_compression.fallback"),
         required(index("bufferViews[].buffer", "/buffers")),
         integer("bufferViews[].byteOffset", 0, kMaxBytes),
         required(integer("bufferViews[].byteLength", 0, kMaxBytes)),
         multiple_of(4, integer("bufferViews[].byteStride", 0, 252)),
-        required(index(meshopt + "buffer", "/buffers")),
-        integer(meshopt + "byteOffset", 0, kMaxInt),
-        required(integer(meshopt + "byteLength", 0, kMaxInt)),
-        required(integer(meshopt + "byteStride", 1, 256)),
-        required(integer(meshopt + "count", 0, kMaxInt)),
-        required(choice(meshopt + "mode", {"ATTRIBUTES", "TRIANGLES", "INDICES"})),
-        choice(meshopt + "filter", {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"}),
     };
+    for (const std::string_view name : kMeshoptExtensions) {
+        const std::string extension = ".extensions." + std::string(name) + ".";
+        const std::string view = "bufferViews[]" + extension;
+        const Rules more = {
+            boolean("buffers[]" + extension + "fallback"),
+            required(index(view + "buffer", "/buffers")),
+            integer(view + "byteOffset", 0, kMaxInt),
+            required(integer(view + "byteLength", 0, kMaxInt)),
+            required(integer(view + "byteStride", 1, 256)),
+            required(integer(view + "count", 0, kMaxInt)),
+            required(choice(view + "mode", {"ATTRIBUTES", "TRIANGLES", "INDICES"})),
+            choice(view + "filter", {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"}),
+        };
+        rules.insert(rules.end(), more.begin(), more.end());
+    }
+    return rules;
 }
 
 Rules accessor_rules() {
     return {
         index("accessors[].bufferView", "/bufferViews"),
         integer("accessors[].byteOffset", 0, kMaxBytes),
-        required(
-            choice("accessors[].componentType", {"5120", "5121", "5122", "5123", "5125", "5126"})),
+        required(choice("accessors[].componentType",
+                        {"5120", "5121", "5122", "5123", "5125", "5126", "5130"})),
         required(integer("accessors[].count", 0, kMaxCount)),
         required(
             choice("accessors[].type", {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"})),
@@ -108,6 +116,7 @@ Rules node_rules() {
         required(index(ies + "light", "/extensions/EXT_lights_ies/lights")),
         number(ies + "multiplier"),
         numbers(ies + "color", 3),
+        boolean("nodes[].extensions.KHR_node_visibility.visible"),
         required(object(instancing + ".attributes")),
         index(instancing + ".attributes{}", "/accessors"),
         required(array("skins[].joints")),
@@ -250,6 +259,7 @@ Rules animation_rules() {
         required(object("animations[].channels[].target")),
         index("animations[].channels[].target.node", "/nodes"),
         required(text("animations[].channels[].target.path")),
+        required(text("animations[].channels[].target.extensions.KHR_animation_pointer.pointer")),
         required(index("animations[].samplers[].input", "/accessors")),
         required(index("animations[].samplers[].output", "/accessors")),
         choice("animations[].samplers[].interpolation", {"LINEAR", "STEP", "CUBICSPLINE"}),

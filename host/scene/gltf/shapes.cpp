@@ -8,6 +8,7 @@
 #include "host/scene/gltf/animation.h"
 #include "host/scene/gltf/instancing.h"
 #include "host/scene/gltf/mesh/skin.h"
+#include "host/scene/material_table.h"
 
 namespace kilolux {
 namespace {
@@ -27,9 +28,10 @@ double mean_scale(const glm::dmat4& world_from_object) {
     return scale > 0.0 && std::isfinite(scale) ? scale : 1.0;
 }
 
-// The placements of a node: one, or those that instancing gives its mesh.
+// The placements of a node: one, or those that instancing gives its mesh. A node that is hidden for
+// a while keeps them, as points: renderers know all instances from the start.
 void add_placements(const GltfDocument& document, std::size_t node, const Placement& placement,
-                    ShapePlan& plan) {
+                    bool is_hidden, ShapePlan& plan) {
     const std::size_t first = plan.placements.size();
     const auto instances = node_from_instances(document, node);
     if (instances && document.model.nodes[node].skin >= 0) {
@@ -46,8 +48,11 @@ void add_placements(const GltfDocument& document, std::size_t node, const Placem
         plan.placements.push_back(placement);
     }
     for (std::size_t p = first; p < plan.placements.size(); ++p) {
-        if (is_finite(plan.placements[p].world_from_object)) continue;
-        document.fail(node_name(document, node), "has a world transform that is not finite");
+        glm::dmat4& world_from_object = plan.placements[p].world_from_object;
+        if (!is_finite(world_from_object)) {
+            document.fail(node_name(document, node), "has a world transform that is not finite");
+        }
+        if (is_hidden) world_from_object = glm::dmat4(glm::dmat3(0.0));
     }
 }
 
@@ -60,7 +65,7 @@ ShapePlan plan_shapes(const GltfDocument& document, const PlacedNodes& nodes) {
     std::map<std::tuple<int, int, std::vector<double>>, std::size_t> shared;
     for (const std::size_t n : nodes.in_scene) {
         const tinygltf::Node& node = document.model.nodes[n];
-        if (node.mesh < 0) continue;
+        if (node.mesh < 0 || nodes.visibility[n] == NodeVisibility::hidden) continue;
         const auto mesh = static_cast<std::size_t>(node.mesh);
         Placement placement{plan.shapes.size(), nodes.world_from_node[n]};
         MeshShape shape{mesh,
@@ -82,9 +87,26 @@ ShapePlan plan_shapes(const GltfDocument& document, const PlacedNodes& nodes) {
             shape.metres_per_unit = mean_scale(placement.world_from_object);
             plan.shapes.push_back(std::move(shape));
         }
-        add_placements(document, n, placement, plan);
+        add_placements(document, n, placement, nodes.visibility[n] != NodeVisibility::visible,
+                       plan);
     }
     return plan;
+}
+
+void add_map_axes(const GltfDocument& document, const GltfMaterials& materials,
+                  const std::vector<Material>& extremes, ShapePlan& plan) {
+    const auto axes = [](const TextureUse& use) { return glm::mat2(use.uv_from_texcoord); };
+    const std::size_t count = extremes.size() / 2;
+    for (MeshShape& shape : plan.shapes) {
+        for (const auto& primitive : document.model.meshes[shape.mesh].primitives) {
+            const MeshShading shading = shading_of(materials, primitive);
+            if (!shading.tangent_map.present()) continue;
+            const auto index = static_cast<std::size_t>(shading.material);
+            shape.map_axes.push_back(axes(shading.tangent_map));
+            shape.moves |=
+                axes(tangent_map(extremes[index])) != axes(tangent_map(extremes[count + index]));
+        }
+    }
 }
 
 std::vector<PrimitiveJob> list_primitives(const GltfDocument& document, const ShapePlan& plan) {

@@ -10,7 +10,10 @@ namespace kilolux {
 struct MeshShape {
     std::size_t mesh = 0;
     Deformation deformation;
-    bool moves = false;            // a skin, or morph weights that an animation drives
+    // A skin, or morph weights or a normal map's transform that an animation drives.
+    bool moves = false;
+    // Of the primitives' normal maps, where an animation drives materials: tangents follow them.
+    std::vector<glm::mat2> map_axes{};
     double metres_per_unit = 1.0;  // of object space, where the shape is placed first
     bool operator==(const MeshShape&) const = default;
 };
@@ -30,6 +33,10 @@ struct ShapePlan {
 
 /// Throws Error for a transform that is not finite.
 ShapePlan plan_shapes(const GltfDocument& document, const PlacedNodes& nodes);
+
+/// Sets MeshShape::map_axes, and has the shapes move where the `extremes` of the materials differ.
+void add_map_axes(const GltfDocument& document, const GltfMaterials& materials,
+                  const std::vector<Material>& extremes, ShapePlan& plan);
 
 /// One primitive of one shape.
 struct PrimitiveJob {

@@ -2,6 +2,7 @@
 #include "host/scene/rows/surface_rows.h"
 
 #include <fmt/format.h>
+#include <utility>
 
 #include "host/base/error.h"
 #include "host/scene/material_table.h"
@@ -55,6 +56,15 @@ SurfaceMaterial surface_material(const Material& material, const TextureTable& t
     return out;
 }
 
+std::vector<SurfaceMaterial> surface_materials(const Scene& scene, const TextureTable& textures) {
+    std::vector<SurfaceMaterial> out;
+    for (const Material& material : scene.materials) {
+        out.push_back(surface_material(material, textures));
+    }
+    out.push_back(surface_material(Material{}, textures));
+    return out;
+}
+
 void add_use(SurfaceFeatures& out, const Scene& scene, const TextureUse& texture, int use) {
     const Sampler& sampler = scene.textures[static_cast<std::size_t>(texture.texture)].sampler;
     out.texture_uses |= 1u << use;
@@ -65,12 +75,12 @@ void add_use(SurfaceFeatures& out, const Scene& scene, const TextureUse& texture
 }
 
 void add_mesh(SurfaceFeatures& out, const Scene& scene, const Mesh& mesh, uint uses) {
-    const Material& material = material_of(scene, mesh);
-    out.masks |= material.alpha_mode == AlphaMode::mask;
+    out.masks |= material_of(scene, mesh).alpha_mode == AlphaMode::mask;
     out.vertex_color |= !mesh.colors.empty();
     for (int use = 0; use < USE_COUNT; ++use) {
-        if (reads_use(scene, mesh, use) && (uses & (1u << use)) != 0) {
-            add_use(out, scene, texture_use(material, use), use);
+        if (!reads_use(scene, mesh, use) || (uses & (1u << use)) == 0) continue;
+        for (const Material* material : looks_of(scene, mesh)) {
+            add_use(out, scene, texture_use(*material, use), use);
         }
     }
 }
@@ -119,10 +129,8 @@ SurfaceFeatures surface_features(const Scene& scene, const SceneFeatures& needs,
 SurfaceRows surface_rows(const Scene& scene, const MeshFeatures& features,
                          const TextureTable& textures) {
     SurfaceRows out;
-    for (const Material& material : scene.materials) {
-        out.materials.push_back(surface_material(material, textures));
-    }
-    out.materials.push_back(surface_material(Material{}, textures));
+    out.materials = surface_materials(scene, textures);
+    out.materials_revision = scene.revisions.materials;
     for (const Mesh& mesh : scene.meshes) {
         const auto read = features(mesh);
         MeshRow row = vertex_layout(mesh, read.value_or(SurfaceFeatures{}));
@@ -140,6 +148,15 @@ SurfaceRows surface_rows(const Scene& scene, const MeshFeatures& features,
     checked_count(out.vertices.size(), scene);
     checked_count(out.indices.size(), scene);
     return out;
+}
+
+bool rewrite_materials(SurfaceRows& rows, const Scene& scene, const MeshFeatures& features) {
+    if (std::exchange(rows.materials_revision, scene.revisions.materials) ==
+        scene.revisions.materials) {
+        return false;
+    }
+    rows.materials = surface_materials(scene, TextureTable(scene, features));
+    return true;
 }
 
 void rewrite_vertices(SurfaceRows& rows, const Scene& scene, const MeshFeatures& features,

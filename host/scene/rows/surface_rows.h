@@ -40,6 +40,7 @@ struct SurfaceRows {
     std::vector<float> vertices;
     std::vector<uint> indices;
     std::vector<SurfaceMaterial> materials;  // the scene's, and the default one
+    std::uint32_t materials_revision = 0;
     std::vector<std::uint32_t> revisions;    // of the meshes' vertices
     std::vector<std::size_t> vertex_counts;  // of the meshes
 };
@@ -47,6 +48,10 @@ struct SurfaceRows {
 /// Throws Error when there are more vertices than rows address.
 SurfaceRows surface_rows(const Scene& scene, const MeshFeatures& features,
                          const TextureTable& textures);
+
+/// Makes the rows of materials anew where the scene's revision says that these changed, and returns
+/// whether it did. `features` are those of the rows.
+bool rewrite_materials(SurfaceRows& rows, const Scene& scene, const MeshFeatures& features);
 
 /// Calls write(first float, rows) for the meshes of `rows` whose vertices changed since the last
 /// call. Throws Error where their number changed: the next mesh's rows follow at once.

@@ -7,6 +7,7 @@
 #include "host/scene/gltf/load_scene.h"
 #include "tests/scene/expect_near.h"
 #include "tests/support/gltf_compressed.h"
+#include "tests/support/messages.h"
 
 namespace kilolux {
 namespace {
@@ -174,6 +175,40 @@ TEST(LoadSceneExtensions, DequantizesMeshes) {
     EXPECT_EQ(scene_defect(scene), "");
     expect_near(world_positions(scene)[2], {0, -16, 0}, 1e-9);
     EXPECT_EQ(scene.meshes[0].normals[0], glm::vec3(0, 0, 1));
+}
+
+// One triangle from `origin` on.
+GltfBuilder wide_file(double origin) {
+    GltfBuilder file = triangle_file();
+    file.primitive()["attributes"]["POSITION"] = file.add_accessor(
+        bytes_of<double>({origin, 0, 0, origin + 1, 0, 0, origin, 1, 0}), {kDouble, "VEC3", 3});
+    file.root["extensionsRequired"] = {"KHR_accessor_float64"};
+    return file;
+}
+
+TEST(LoadSceneExtensions, Float64BecomesFloat32WithAWarningOfWhatIsLost) {
+    const auto warning_at = [](double origin) {
+        testing::internal::CaptureStderr();
+        const Scene scene = load(wide_file(origin));
+        EXPECT_EQ(world_positions(scene)[1].x, static_cast<float>(origin + 1));
+        return testing::internal::GetCapturedStderr();
+    };
+    EXPECT_EQ(warning_at(0.1), "");
+    const std::string warning = warning_at(1000.1);
+    EXPECT_TRUE(contains(warning, "positions of 64 bits lose 2e-05 m as floats")) << warning;
+    EXPECT_TRUE(contains(load_error(wide_file(1e300)), "element 0 holds 1e+300, must be finite"));
+}
+
+TEST(LoadSceneExtensions, AnimationsKeepTheirFloat64) {
+    constexpr double kFar = 1e9 + 0.25;
+    GltfBuilder file = triangle_file();
+    const int input = file.add_floats("SCALAR", {0});
+    const int output = file.add_accessor(bytes_of<double>({kFar, 0.1, 0}), {kDouble, "VEC3", 1});
+    file.add(
+        "animations",
+        {{"samplers", {{{"input", input}, {"output", output}}}},
+         {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}});
+    EXPECT_EQ(world_positions(load(file))[0], glm::dvec3(kFar, 0.1, 0));
 }
 
 }  // namespace

@@ -124,10 +124,10 @@ TEST(LoadSceneReports, APlaceholderBufferNeedsNoTag) {
     EXPECT_TRUE(contains(load_error(folder.path() / "scene.glb"),
                          "buffers[1]: has neither a uri nor a GLB's BIN chunk, and "
                          "bufferViews[0] reads it"));
-    file.root["extensionsRequired"] = {"KHR_meshopt_compression"};
+    file.root["extensionsRequired"] = {"KHR_texture_basisu"};
     write_file(folder.path() / "scene.glb", file.glb());
     EXPECT_TRUE(contains(load_error(folder.path() / "scene.glb"),
-                         "the file needs 'KHR_meshopt_compression', which is not supported"));
+                         "the file needs 'KHR_texture_basisu', which is not supported"));
 }
 
 std::string error_of(const json& root) {

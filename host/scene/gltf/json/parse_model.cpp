@@ -25,6 +25,11 @@ std::vector<int> adapt_to_tinygltf(json& root) {
     };
     // tinygltf drops empty objects, and the array's indices with them.
     each("/extensions/EXT_lights_ies/lights", [](json& light) { light.emplace("name", ""); });
+    // It requires a node of each channel's target, which pointers have in its place.
+    each("/animations", [](json& animation) {
+        if (!animation.contains("channels")) return;
+        for (json& channel : animation.at("channels")) channel.at("target").emplace("node", -1);
+    });
     std::vector<int> indices;
     each("/meshes", [&indices](json& mesh) {
         if (!mesh.contains("primitives")) return;
@@ -69,11 +74,12 @@ class ModelParser {
     ModelParser(GltfDocument& document, std::uint64_t charged)
         : document_(document), charged_(charged) {}
 
-    // Reads all but buffers and images, which tinygltf would read without our checks, materials
-    // and lights.
+    // Reads all but buffers and images, which tinygltf would read without our checks, materials,
+    // cameras and lights.
     void run(json root) {
         std::vector<json> images = take_array(root, "images");
         document_.materials = take_array(root, "materials");
+        document_.cameras = take_array(root, "cameras");
         for (std::size_t e = 0; e < kLightExtensions.size(); ++e) {
             const json::json_pointer place("/extensions/" + std::string(kLightExtensions[e]));
             if (root.contains(place)) document_.lights[e] = take_array(root.at(place), "lights");
@@ -93,6 +99,7 @@ class ModelParser {
             for (const json& value : list) kept += cost_of(value).values;
         };
         keep(document_.materials);
+        keep(document_.cameras);
         std::ranges::for_each(document_.lights, keep);
         release(charged_ - std::min(charged_, kept));
     }

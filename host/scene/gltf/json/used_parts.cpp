@@ -2,6 +2,7 @@
 #include "host/scene/gltf/json/used_parts.h"
 
 #include "host/scene/gltf/document.h"
+#include "host/scene/gltf/mesh/meshopt.h"
 
 namespace kilolux {
 namespace {
@@ -36,8 +37,12 @@ UsedParts used_parts(const json& root) {
     }
     for (std::size_t i = 0; i < views.size(); ++i) {
         if (!out.views[i]) continue;
-        const json* compressed = find_member(views[i], "extensions.EXT_meshopt_compression");
-        mark(out.buffers, compressed == nullptr ? views[i] : *compressed, "buffer");
+        const json* source = &views[i];
+        for (const std::string_view name : kMeshoptExtensions) {
+            const json* found = find_member(views[i], "extensions." + std::string(name));
+            if (found != nullptr) source = found;
+        }
+        mark(out.buffers, *source, "buffer");
     }
     return out;
 }

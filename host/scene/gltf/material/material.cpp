@@ -132,9 +132,6 @@ void set_unlit(Material& material) {
 GltfMaterials convert_materials(const GltfDocument& document) {
     GltfMaterials out;
     FileTextures textures(document);
-    // The scene gets a copy.
-    document.budget->charge_memory(2 * document.materials.size() * sizeof(Material),
-                                   document.base.file + ": materials");
     out.materials.reserve(document.materials.size());
     for (const json& source : document.materials) {
         out.materials.push_back(convert_material(source, textures));

@@ -17,22 +17,23 @@ T load(const unsigned char* bytes) {
 }
 
 // glTF 2.0, section 3.11 (accessors of normalized integers).
-float component_value(const ElementArray& array, const unsigned char* bytes) {
+double component_value(const ElementArray& array, const unsigned char* bytes) {
     return visit_component_type(array.component_type, [&](auto zero) {
         using T = decltype(zero);
         const T value = load<T>(bytes);
-        if (std::is_floating_point_v<T> || !array.normalized) return static_cast<float>(value);
+        if (std::is_floating_point_v<T> || !array.normalized) return static_cast<double>(value);
         using Real = std::conditional_t<sizeof(T) == 4, double, float>;
         const Real largest = static_cast<Real>(std::numeric_limits<T>::max());
-        return static_cast<float>(std::max(static_cast<Real>(value) / largest, Real{-1}));
+        // A float has it all.
+        return double{static_cast<float>(std::max(static_cast<Real>(value) / largest, Real{-1}))};
     });
 }
 
-float finite_component(const ElementArray& array, std::size_t element, std::size_t component,
-                       const unsigned char* bytes) {
+double finite_component(const ElementArray& array, std::size_t element, std::size_t component,
+                        const unsigned char* bytes) {
     const std::size_t size = component_bytes(array.component_type);
-    const float value = component_value(array, bytes + component * size);
-    if (std::isfinite(value)) return value;
+    const double value = component_value(array, bytes + component * size);
+    if (std::isfinite(to_float(value))) return value;
     throw Error(
         fmt::format("{}: element {} holds {}, must be finite", array.where, element, value));
 }
@@ -121,8 +122,8 @@ ElementArray open_accessor(const GltfDocument& document, int index) {
     return array;
 }
 
-glm::vec4 read_vector(const ElementArray& array, std::size_t element) {
-    glm::vec4 out(0.0f);
+glm::dvec4 read_exact(const ElementArray& array, std::size_t element) {
+    glm::dvec4 out(0.0);
     const unsigned char* bytes = element_at(array, element);
     if (bytes == nullptr) return out;
     const std::size_t components = std::min<std::size_t>(array.components, 4);
@@ -130,6 +131,10 @@ glm::vec4 read_vector(const ElementArray& array, std::size_t element) {
         out[static_cast<glm::length_t>(c)] = finite_component(array, element, c, bytes);
     }
     return out;
+}
+
+glm::vec4 read_vector(const ElementArray& array, std::size_t element) {
+    return glm::vec4(read_exact(array, element));
 }
 
 float read_scalar(const ElementArray& array, std::size_t element) {

@@ -21,14 +21,17 @@ struct ElementArray {
 /// Throws Error when the accessor leaves its buffer view, or its sparse part is out of order.
 ElementArray open_accessor(const GltfDocument& document, int accessor);
 
-/// An element's components as floats, normalised integers mapped to [0, 1] or [-1, 1]; those that
-/// the type lacks are 0. Throws Error when one is not finite.
+/// An element's components, normalised integers mapped to [0, 1] or [-1, 1]; those that
+/// the type lacks are 0. Throws Error when one is not finite as a float.
+glm::dvec4 read_exact(const ElementArray& array, std::size_t element);
+
+/// The same rounded to floats, which only the type of 64 bits needs.
 glm::vec4 read_vector(const ElementArray& array, std::size_t element);
 
 /// A component of a SCALAR accessor.
 float read_scalar(const ElementArray& array, std::size_t element);
 
-/// An element of a float MAT4 accessor.
+/// An element of a MAT4 accessor.
 glm::dmat4 read_matrix(const ElementArray& array, std::size_t element);
 
 /// An element of a SCALAR accessor of unsigned integers.
@@ -48,6 +51,8 @@ auto visit_component_type(int component_type, const Visitor& visit) {
             return visit(std::uint16_t{});
         case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
             return visit(std::uint32_t{});
+        case TINYGLTF_COMPONENT_TYPE_DOUBLE:
+            return visit(0.0);
         default:
             return visit(0.0f);
     }

@@ -152,6 +152,26 @@ std::vector<std::uint32_t> lasting_groups(const MeshPlan& plan, const MeshShadin
     return groups;
 }
 
+// What rounding positions of 64 bits to floats may take of a mesh's size.
+constexpr double kStatedRounding = 1e-6;
+
+void report_rounding(const GltfDocument& document, const MeshPlan& plan) {
+    const ElementArray& positions = plan.arrays.attributes.at("POSITION");
+    if (positions.component_type != TINYGLTF_COMPONENT_TYPE_DOUBLE) return;
+    Box box;
+    double lost = 0.0;
+    for (const std::uint32_t element : plan.elements) {
+        const glm::dvec3 p(read_exact(positions, element));
+        box.add(p);
+        lost = std::max(lost, glm::length(p - glm::dvec3(glm::vec3(p))));
+    }
+    if (box.empty() || lost <= kStatedRounding * glm::length(box.size())) return;
+    document.leave_out(
+        fmt::format("a mesh's positions of 64 bits lose {:.1g} m as floats: its node's translation "
+                    "would keep what is far from the origin",
+                    lost));
+}
+
 constexpr std::size_t kMaxSolids = std::numeric_limits<std::uint32_t>::max() / 6;  // 6 vertices
 
 }  // namespace
@@ -168,6 +188,7 @@ MeshPlan plan_mesh(const GltfDocument& document, PrimitiveArrays arrays, const M
     shares_vertices ? plan_used(plan) : plan_unshared(plan);
     plan.arrays.corners = {};
     document.budget->charge(plan.elements.size(), kVertexBytes, plan.arrays.where);
+    report_rounding(document, plan);
     const bool derives_tangents =
         is_surface && shading.tangent_map.present() && !has_tangents(plan.arrays.attributes);
     if (!derives_tangents) return plan;

@@ -4,11 +4,10 @@
 #include <meshoptimizer.h>
 
 #include "host/scene/gltf/extensions.h"
+#include "host/scene/gltf/mesh/meshopt_vertices.h"
 
 namespace kilolux {
 namespace {
-
-constexpr const char* kMeshoptExtension = "EXT_meshopt_compression";
 
 // The values of the extension's object.
 struct MeshoptView {
@@ -19,10 +18,18 @@ struct MeshoptView {
     std::string filter;
 };
 
-MeshoptView read_extension(const GltfDocument& document, std::size_t view,
+// The name of the extension that compresses a view; empty for none.
+std::string extension_of(const GltfDocument& document, std::size_t view) {
+    for (const std::string_view name : kMeshoptExtensions) {
+        if (document.model.bufferViews[view].extensions.contains(std::string(name))) {
+            return std::string(name);
+        }
+    }
+    return "";
+}
+
+MeshoptView read_extension(const GltfDocument& document, const tinygltf::Value& object,
                            const std::string& where) {
-    const tinygltf::Value& object =
-        *find_extension(document.model.bufferViews[view].extensions, kMeshoptExtension);
     const ByteSpan buffer =
         bytes_of_buffer(document, static_cast<std::size_t>(member_or(object, "buffer", 0)), where);
     const auto offset = static_cast<std::size_t>(member_or(object, "byteOffset", 0));
@@ -56,14 +63,17 @@ void check_shape(const GltfDocument& document, const MeshoptView& view, const st
     if (view.mode == "TRIANGLES" && view.count % 3 != 0) {
         document.fail(where, "count is {}, must be a multiple of 3", view.count);
     }
-    if (view.filter == "OCTAHEDRAL") {
-        require_stride(view.stride == 4 || view.stride == 8, "4 or 8 for filter OCTAHEDRAL");
+    if (view.filter == "OCTAHEDRAL" || view.filter == "COLOR") {
+        require_stride(view.stride == 4 || view.stride == 8, "4 or 8 for filter " + view.filter);
     }
     if (view.filter == "QUATERNION") require_stride(view.stride == 8, "8 for filter QUATERNION");
 }
 
 int decode(const MeshoptView& view, Bytes& out) {
     const auto& [source, count, stride, mode, filter] = view;
+    if (mode == "ATTRIBUTES" && is_vertex_format_1(source)) {
+        return decode_vertex_format_1(source, stride, out) ? 0 : -1;
+    }
     if (mode == "ATTRIBUTES") {
         return meshopt_decodeVertexBuffer(out.data(), count, stride, source.data(), source.size());
     }
@@ -76,18 +86,19 @@ int decode(const MeshoptView& view, Bytes& out) {
 }  // namespace
 
 bool is_meshopt_compressed(const GltfDocument& document, std::size_t view) {
-    return find_extension(document.model.bufferViews[view].extensions, kMeshoptExtension) !=
-           nullptr;
+    return !extension_of(document, view).empty();
 }
 
 Bytes decode_meshopt_view(const GltfDocument& document, std::size_t view) {
-    const std::string where = element_name("bufferViews", view) + "." + kMeshoptExtension;
-    const MeshoptView compressed = read_extension(document, view, where);
+    const std::string name = extension_of(document, view);
+    const std::string where = element_name("bufferViews", view) + "." + name;
+    const MeshoptView compressed = read_extension(
+        document, *find_extension(document.model.bufferViews[view].extensions, name), where);
     check_shape(document, compressed, where);
     document.budget->charge(compressed.count, compressed.stride, document.base.file + ": " + where);
     Bytes out(compressed.count * compressed.stride);
     if (const int error = decode(compressed, out); error != 0) {
-        document.fail(where, "data are broken (meshoptimizer returned {})", error);
+        document.fail(where, "data are broken (the decoder returned {})", error);
     }
     if (compressed.filter == "OCTAHEDRAL") {
         meshopt_decodeFilterOct(out.data(), compressed.count, compressed.stride);
@@ -95,6 +106,8 @@ Bytes decode_meshopt_view(const GltfDocument& document, std::size_t view) {
         meshopt_decodeFilterQuat(out.data(), compressed.count, compressed.stride);
     } else if (compressed.filter == "EXPONENTIAL") {
         meshopt_decodeFilterExp(out.data(), compressed.count, compressed.stride);
+    } else if (compressed.filter == "COLOR") {
+        undo_color_filter(out, compressed.stride);
     }
     return out;
 }
