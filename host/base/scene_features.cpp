@@ -19,6 +19,7 @@ constexpr SceneFeature kTable[] = {
     {"occlusion", &F::occlusion, "HAS_OCCLUSION", true},
     {"specular", &F::specular, "HAS_SPECULAR", true},
     {"clearcoat", &F::clearcoat, "HAS_CLEARCOAT", true},
+    {"sheen", &F::sheen, "HAS_SHEEN", true},
     {"unlit", &F::unlit_materials, nullptr, true},
     {"", &F::unlit, "HAS_UNLIT"},
     {"", &F::gloss},

@@ -44,6 +44,10 @@ inline constexpr std::array<MaterialMap, USE_COUNT> kMaterialMaps = {{
      &Material::clearcoat_roughness_texture, false, "g", &SceneFeatures::clearcoat},
     {USE_CLEARCOAT_NORMAL, "extensions.KHR_materials_clearcoat.clearcoatNormalTexture",
      &Material::clearcoat_normal_texture, false, "rgb", &SceneFeatures::clearcoat},
+    {USE_SHEEN_COLOR, "extensions.KHR_materials_sheen.sheenColorTexture",
+     &Material::sheen_color_texture, true, "rgb", &SceneFeatures::sheen},
+    {USE_SHEEN_ROUGHNESS, "extensions.KHR_materials_sheen.sheenRoughnessTexture",
+     &Material::sheen_roughness_texture, false, "a", &SceneFeatures::sheen},
 }};
 
 static_assert([] {
@@ -86,6 +90,10 @@ inline constexpr auto kMaterialFactors = std::to_array<MaterialFactor>({
      &MaterialRow::clearcoat, 1},
     {"extensions.KHR_materials_clearcoat.clearcoatNormalTexture.scale",
      &Material::clearcoat_normal_scale, &MaterialRow::clearcoat, 2, FactorRange::finite},
+    {"extensions.KHR_materials_sheen.sheenColorFactor", &Material::sheen_color, &MaterialRow::sheen,
+     0},
+    {"extensions.KHR_materials_sheen.sheenRoughnessFactor", &Material::sheen_roughness,
+     &MaterialRow::sheen, 3},
 });
 
 /// The map by whose texture coordinates tangents are made: the first one in tangent space. Not
@@ -131,7 +139,6 @@ inline constexpr auto kLeftOutMaterialExtensions = std::to_array<LeftOutExtensio
     {"KHR_materials_volume_scatter", "no light scatters below surfaces"},
     {"KHR_materials_diffuse_transmission", "leaves and paper let no light through"},
     {"KHR_materials_dispersion", "glass shows no rainbow"},
-    {"KHR_materials_sheen", "cloth has no sheen"},
     {"KHR_materials_iridescence", "thin films show no colours"},
     {"KHR_materials_anisotropy", "brushed metal has round highlights"},
 });

@@ -77,6 +77,10 @@ struct Material {
     TextureUse clearcoat_roughness_texture;  // linear; G
     TextureUse clearcoat_normal_texture;     // linear
     float clearcoat_normal_scale = 1.0f;
+    glm::vec3 sheen_color{0.0f};         // KHR_materials_sheen
+    TextureUse sheen_color_texture;      // sRGB
+    float sheen_roughness = 0.0f;        // perceptual
+    TextureUse sheen_roughness_texture;  // linear; A
     bool operator==(const Material&) const = default;
 };
 

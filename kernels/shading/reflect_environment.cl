@@ -105,6 +105,11 @@ static inline FV3 reflected(ReflectionMaps maps, View view, Surface s, FV3 irrad
                       s.albedo.y * base * (fv(1.0f) - lost.y) * irradiance.y),
                   fma(fma(f0.z, shares.x, rise), light.z,
                       s.albedo.z * base * (fv(1.0f) - lost.z) * irradiance.z));
+#if HAS_SHEEN_LOBE
+    // Its wide lobe has less error with the diffuse light than with a prefiltered mirror direction.
+    out = scale3(out, fma(-p.sheen_most, p.sheen.albedo, fv(1.0f)));
+    out = with_sheen_light(s, p, out, scale3(irradiance, p.sheen.albedo));
+#endif
 #if HAS_COAT
     FV3 of_coat = table_at(maps, p.coat.n_dot_v, s.coat_roughness);
     FV3 coat = lobe_light(maps, view, s.coat_normal, p.to_eye, s.coat_roughness);

@@ -130,6 +130,38 @@ SHARED_FN LightSum add_coat(LightSum sum, ShadingPoint p, HalfVector half_way, F
     return sum;
 }
 #endif
+
+#if HAS_SHEEN_LOBE
+// The share of light at a cosine that the sheen leaves to the surface below it: sheenAlbedoScaling.
+SHARED_FN FV below_sheen(ShadingPoint p, FV cosine) {
+    FV taken = max(p.sheen.albedo, sheen_albedo(p.sheen, cosine));
+    return fma(-p.sheen_most, taken, fv(1.0f));
+}
+
+// Light of intensity's weight * falloff.
+SHARED_FN LightSum add_sheen(LightSum sum, ShadingPoint p, HalfVector half_way, FV n_dot_l,
+                             FV weight, float4 color) {
+    FV3 nxh = cross3(p.normal, half_way.h);
+    FV n_dot_h = dot3(p.normal, half_way.h);
+    FV lobe = sheen_light(p.sheen, dot3(nxh, nxh), n_dot_h * n_dot_h, half_way.hh, n_dot_l);
+    sum.sheen = add_scaled(sum.sheen, weight * lobe, color);
+    return sum;
+}
+#endif
+
+// Light of the direction `v` * `inv_length`: intensity's weight * falloff, and that times n.l.
+SHARED_FN LightSum add_lobes(LightSum sum, ShadingPoint p, FV3 v, FV inv_length, FV n_dot_l,
+                             FV weight, FV lit, float4 color) {
+    HalfVector half_way = half_vector(p, v, inv_length);
+#if HAS_COAT
+    sum = add_coat(sum, p, half_way, v, inv_length, weight, color);
+#endif
+#if HAS_SHEEN_LOBE
+    sum = add_sheen(sum, p, half_way, n_dot_l, weight, color);
+    lit = lit * below_sheen(p, n_dot_l);
+#endif
+    return add_pbr(sum, p, half_way, n_dot_l, lit, color);
+}
 #endif
 
 // The share of a spot light's intensity in the direction -`v` / distance.
@@ -198,11 +230,7 @@ SHARED_FN LightSum evaluate(LightSum sum, ShadingPoint p, ShadeLight light) {
     FV lit = lane_divide(window * n_dot_v, e2 * distance);
 #endif
 #if SHADING == SHADING_PBR
-    HalfVector half_way = half_vector(p, v, inv_d);
-#if HAS_COAT
-    sum = add_coat(sum, p, half_way, v, inv_d, weight, light.color_scale);
-#endif
-    return add_pbr(sum, p, half_way, n_dot_l, lit, light.color_scale);
+    return add_lobes(sum, p, v, inv_d, n_dot_l, weight, lit, light.color_scale);
 #elif SHADING == SHADING_BLINN_PHONG
 #if FAST_RSQRT
     FV distance = e2 * inv_d;
@@ -218,11 +246,7 @@ SHARED_FN LightSum evaluate_directional(LightSum sum, ShadingPoint p, Directiona
     FV3 to_light = fv3(fv(light.to_light.x), fv(light.to_light.y), fv(light.to_light.z));
     FV n_dot_l = max(dot3(p.normal, to_light), fv(0.0f));
 #if SHADING == SHADING_PBR
-    HalfVector half_way = half_vector(p, to_light, fv(1.0f));
-#if HAS_COAT
-    sum = add_coat(sum, p, half_way, to_light, fv(1.0f), fv(1.0f), light.color);
-#endif
-    return add_pbr(sum, p, half_way, n_dot_l, n_dot_l, light.color);
+    return add_lobes(sum, p, to_light, fv(1.0f), n_dot_l, fv(1.0f), n_dot_l, light.color);
 #elif SHADING == SHADING_BLINN_PHONG
     return add_blinn_phong(sum, p, to_light, fv(1.0f), n_dot_l, light.color);
 #else
@@ -240,6 +264,17 @@ SHARED_FN FV3 coated(ShadingPoint p, FV3 below, FV3 light) {
     return fv3(fma(below.x, kept, lane_select(has_coat, light.x * p.coat_share, fv(0.0f))),
                fma(below.y, kept, lane_select(has_coat, light.y * p.coat_share, fv(0.0f))),
                fma(below.z, kept, lane_select(has_coat, light.z * p.coat_share, fv(0.0f))));
+}
+#endif
+
+#if HAS_SHEEN_LOBE
+// Radiance of sheen that reflects `light`, beside that of the surface below it.
+SHARED_FN FV3 with_sheen_light(Surface s, ShadingPoint p, FV3 below, FV3 light) {
+    // Without a colour its lobe counts for nothing, also where it overflows.
+    MASK has_sheen = p.sheen_most > fv(0.0f);
+    return fv3(below.x + lane_select(has_sheen, s.sheen.x * light.x, fv(0.0f)),
+               below.y + lane_select(has_sheen, s.sheen.y * light.y, fv(0.0f)),
+               below.z + lane_select(has_sheen, s.sheen.z * light.z, fv(0.0f)));
 }
 #endif
 
@@ -273,6 +308,9 @@ SHARED_FN FV3 reflected_radiance(Surface s, ShadingPoint p, LightSum sum) {
     out_radiance = fv3(fma(base.x * k * (fv(1.0f) - f0.x), sum.diffuse.x, lobe * sum.specular.x),
                        fma(base.y * k * (fv(1.0f) - f0.y), sum.diffuse.y, lobe * sum.specular.y),
                        fma(base.z * k * (fv(1.0f) - f0.z), sum.diffuse.z, lobe * sum.specular.z));
+#endif
+#if HAS_SHEEN_LOBE
+    out_radiance = with_sheen_light(s, p, out_radiance, scale3(sum.sheen, p.sheen.scale));
 #endif
 #if HAS_COAT
     out_radiance = coated(p, out_radiance, scale3(sum.coat, lobe));
@@ -331,6 +369,9 @@ SHARED_FN LightSum add_bounds(LightSum sum, Surface s, ShadingPoint p, LightBoun
     FV coat_peak = ggx_bound(p.coat, turned_cosine(most.cosine, p.normal, p.coat_normal));
     sum.coat = add3(sum.coat, scale3(most.all, coat_peak));
 #endif
+#if HAS_SHEEN_LOBE
+    sum.sheen = add3(sum.sheen, scale3(most.all, sheen_bound(p.sheen, p.lobe.n_dot_v)));
+#endif
 #elif SHADING == SHADING_BLINN_PHONG
     FV cos2 = most.cosine * most.cosine;
     FV peak = pow_of_cos2(cos2, fv(1.0f) - cos2, fv(1.0f), p.exponent);
@@ -350,15 +391,20 @@ SHARED_FN FV3 radiance_bound(Surface s, ShadingPoint p, LightSum most) {
 // Radiance of the surface, from the sums over its lights.
 SHARED_FN FV3 finish_shading(Surface s, ShadingPoint p, LightSum sum, float ambient) {
     FV3 lit = reflected_radiance(s, p, sum);
-    FV3 emissive = s.emissive;
+    FV3 emissive = s.emissive, albedo = s.albedo;
     FV a = s.occlusion * fv(ambient);
+#if HAS_SHEEN_LOBE
+    // As of even light from all directions.
+    albedo = with_sheen_light(s, p, scale3(albedo, fma(-p.sheen_most, p.sheen.albedo, fv(1.0f))),
+                              fv3(p.sheen.albedo, p.sheen.albedo, p.sheen.albedo));
+#endif
 #if HAS_COAT
     FV kept = fv(1.0f) - p.coat_share;
     a = a * kept;
     emissive = scale3(emissive, kept);
 #endif
-    return fv3(fma(a, s.albedo.x, lit.x) + emissive.x, fma(a, s.albedo.y, lit.y) + emissive.y,
-               fma(a, s.albedo.z, lit.z) + emissive.z);
+    return fv3(fma(a, albedo.x, lit.x) + emissive.x, fma(a, albedo.y, lit.y) + emissive.y,
+               fma(a, albedo.z, lit.z) + emissive.z);
 }
 
 #if defined(__cplusplus)

@@ -88,7 +88,16 @@ namespace kilolux {
 #define PLANE_COAT_NORMAL_X 31
 #define PLANE_COAT_NORMAL_Y 32
 #define PLANE_COAT_NORMAL_Z 33
-#define PLANE_COUNT 34
+// all but full, optional: uchar4, square roots of the sheen's linear colour, its roughness in the
+// 4th
+#define PLANE_SHEEN 34
+// full, optional: float, the sheen's colour, linear Rec. 709
+#define PLANE_SHEEN_R 35
+#define PLANE_SHEEN_G 36
+#define PLANE_SHEEN_B 37
+// full, optional: float, the sheen's perceptual roughness
+#define PLANE_SHEEN_ROUGHNESS 38
+#define PLANE_COUNT 39
 #define PLANE_ABSENT 0xffffffffu
 
 // The values of a surface beside its position and normal, a row each.
@@ -109,7 +118,10 @@ namespace kilolux {
     /* KHR_materials_clearcoat */                                                             \
     SCALAR(HAS_CLEARCOAT, coat, SURFACE_COAT, PLANE_COAT_F, 0.0f)                             \
     SCALAR(HAS_CLEARCOAT, coat_roughness, SURFACE_COAT_ROUGHNESS, PLANE_COAT_ROUGHNESS, 1.0f) \
-    VECTOR(HAS_CLEARCOAT, coat_normal, SURFACE_COAT_NORMAL, PLANE_COAT_NORMAL_X, 0.0f)
+    VECTOR(HAS_CLEARCOAT, coat_normal, SURFACE_COAT_NORMAL, PLANE_COAT_NORMAL_X, 0.0f)        \
+    /* KHR_materials_sheen */                                                                 \
+    VECTOR(HAS_SHEEN, sheen, SURFACE_SHEEN, PLANE_SHEEN_R, 0.0f)                              \
+    SCALAR(HAS_SHEEN, sheen_roughness, SURFACE_SHEEN_ROUGHNESS, PLANE_SHEEN_ROUGHNESS, 1.0f)
 // Reflectance of dielectrics at normal incidence (glTF 2.0, appendix B).
 #define DIELECTRIC_F0 0.04f
 
@@ -132,9 +144,9 @@ SHARED_STRUCT(GBufferLayout) {
     float emissive_scale;  // largest emissive value of the scene, > 0: PLANE_MATERIAL is relative
                            // to it
     uint bytes_per_pixel;
-    uint unused0, unused1, unused2;
+    uint unused0, unused1;
 };
-SHARED_ASSERT(gbuffer_layout_size, sizeof(GBufferLayout) == 160);
+SHARED_ASSERT(gbuffer_layout_size, sizeof(GBufferLayout) == 176);
 #endif
 
 // Octahedral coordinates in [-1, 1]^2 of a unit vector. Cigolle et al. 2014, "A Survey of Efficient

@@ -3,7 +3,7 @@
 // device. For OpenCL C and C++.
 #ifndef KILOLUX_SHARED_LIGHT_DRIFT_H
 #define KILOLUX_SHARED_LIGHT_DRIFT_H
-#include "kernels/shared/item_hash.h"
+#include "kernels/shared/hash.h"
 #include "kernels/shared/types.h"
 
 #define SWARM_BOXES 6

@@ -18,7 +18,9 @@ namespace kilolux {
 #define USE_CLEARCOAT 7
 #define USE_CLEARCOAT_ROUGHNESS 8
 #define USE_CLEARCOAT_NORMAL 9
-#define USE_COUNT 10
+#define USE_SHEEN_COLOR 10
+#define USE_SHEEN_ROUGHNESS 11
+#define USE_COUNT 12
 // Bits 1 << USE_* of the maps in tangent space.
 #define TANGENT_USES ((1u << USE_NORMAL) | (1u << USE_CLEARCOAT_NORMAL))
 
@@ -28,10 +30,11 @@ SHARED_STRUCT(MaterialRow) {
     float4 factors;          // metallic, roughness, normal scale, occlusion strength
     float4 specular;         // xyz: reflectance head on times the colour factor; w: specular factor
     float4 clearcoat;        // factor, roughness, normal scale
+    float4 sheen;            // xyz: linear Rec. 709; w: roughness
     float4 uv_x[USE_COUNT];  // xyz: u = dot(xyz, (texcoord, 1))
     float4 uv_y[USE_COUNT];  // xyz: v likewise
 };
-SHARED_ASSERT(material_row_size, sizeof(MaterialRow) == 80 + 32 * USE_COUNT);
+SHARED_ASSERT(material_row_size, sizeof(MaterialRow) == 96 + 32 * USE_COUNT);
 
 #if defined(__cplusplus)
 }  // namespace kilolux

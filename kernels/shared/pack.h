@@ -38,14 +38,20 @@ SHARED_FN FV3 unorm8_color(UV rgba) {
     return fv3(unorm8(rgba & 255u), unorm8((rgba >> 8) & 255u), unorm8((rgba >> 16) & 255u));
 }
 
-SHARED_FN UV pack_specular(Surface s) {
-    FV3 root = fv3(lane_sqrt(s.specular.x), lane_sqrt(s.specular.y), lane_sqrt(s.specular.z));
-    return pack_linear(root, unorm_code(s.specular_f90, 255.0f));
+SHARED_FN UV pack_reflectance(FV3 c, FV fourth) {
+    FV3 root = fv3(lane_sqrt(c.x), lane_sqrt(c.y), lane_sqrt(c.z));
+    return pack_linear(root, unorm_code(fourth, 255.0f));
 }
 
+SHARED_FN FV3 unpack_reflectance(UV code) {
+    return fv3(reflectance_of(code & 255u), reflectance_of((code >> 8) & 255u),
+               reflectance_of((code >> 16) & 255u));
+}
+
+SHARED_FN UV pack_specular(Surface s) { return pack_reflectance(s.specular, s.specular_f90); }
+
 SHARED_FN Surface unpack_specular(UV code, Surface s) {
-    s.specular = fv3(reflectance_of(code & 255u), reflectance_of((code >> 8) & 255u),
-                     reflectance_of((code >> 16) & 255u));
+    s.specular = unpack_reflectance(code);
     s.specular_f90 = unorm8(code >> 24);
     return s;
 }
@@ -71,10 +77,19 @@ SHARED_FN Surface unpack_coat_normal(UV code, Surface s) {
     return s;
 }
 
+SHARED_FN UV pack_sheen(Surface s) { return pack_reflectance(s.sheen, s.sheen_roughness); }
+
+SHARED_FN Surface unpack_sheen(UV code, Surface s) {
+    s.sheen = unpack_reflectance(code);
+    s.sheen_roughness = unorm8(code >> 24);
+    return s;
+}
+
 // The optional planes of four bytes that all layouts but `full` may have, beside PLANE_MATERIAL:
 // whether the scene's G-buffers have it, its number, and its functions.
-#define PACKED_PLANES(PLANE)                                            \
-    PLANE(HAS_SPECULAR, PLANE_SPECULAR, pack_specular, unpack_specular) \
-    PLANE(HAS_CLEARCOAT, PLANE_COAT, pack_coat, unpack_coat)            \
-    PLANE(HAS_CLEARCOAT, PLANE_COAT_NORMAL, pack_coat_normal, unpack_coat_normal)
+#define PACKED_PLANES(PLANE)                                                      \
+    PLANE(HAS_SPECULAR, PLANE_SPECULAR, pack_specular, unpack_specular)           \
+    PLANE(HAS_CLEARCOAT, PLANE_COAT, pack_coat, unpack_coat)                      \
+    PLANE(HAS_CLEARCOAT, PLANE_COAT_NORMAL, pack_coat_normal, unpack_coat_normal) \
+    PLANE(HAS_SHEEN, PLANE_SHEEN, pack_sheen, unpack_sheen)
 #endif

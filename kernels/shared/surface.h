@@ -2,12 +2,14 @@
 // A point on a surface, and the values that shading with any light needs of it.
 //
 // Compile-time switches: SHADING, HAS_METALLIC, HAS_SPECULAR (KHR_materials_ior and
-// KHR_materials_specular), HAS_CLEARCOAT (KHR_materials_clearcoat), HAS_UNLIT. Features that the
-// scene lacks are not compiled in; compiling them in changes no bit of the radiance.
+// KHR_materials_specular), HAS_CLEARCOAT (KHR_materials_clearcoat), HAS_SHEEN
+// (KHR_materials_sheen), HAS_UNLIT. Features that the scene lacks are not compiled in; compiling
+// them in changes no bit of the radiance.
 #ifndef KILOLUX_SHARED_SURFACE_H
 #define KILOLUX_SHARED_SURFACE_H
 #include "kernels/shared/evaluate_modes.h"
 #include "kernels/shared/gbuffer.h"
+#include "kernels/shared/sheen.h"
 #include "kernels/shared/types.h"
 
 #ifndef SHADING
@@ -28,17 +30,18 @@
 #ifndef HAS_CLEARCOAT
 #define HAS_CLEARCOAT 0
 #endif
+#ifndef HAS_SHEEN
+#define HAS_SHEEN 0
+#endif
 // Whether the G-buffer may hold unlit surfaces: is_lit().
 #ifndef HAS_UNLIT
 #define HAS_UNLIT 0
 #endif
 #define F0_VARIES (HAS_METALLIC || HAS_SPECULAR)
-// A clear coat is a part of glTF's model alone.
+// Clear coats and sheen are parts of glTF's model alone.
 #define HAS_COAT (HAS_CLEARCOAT != 0 && SHADING == SHADING_PBR)
+#define HAS_SHEEN_LOBE (HAS_SHEEN != 0 && SHADING == SHADING_PBR)
 
-// Perceptual roughness below which a lobe is too narrow for float32 and 2x16 normals (Filament's
-// limit).
-#define ROUGHNESS_MIN 0.045f
 // Smallest cosine of the angle between normal and eye (Filament, MIN_N_DOT_V).
 #define N_DOT_V_MIN 1e-4f
 
@@ -102,6 +105,10 @@ SHARED_PLAIN_STRUCT(ShadingPoint) {
     FV3 coat_normal;
     GgxLobe coat;
     FV coat_share;  // of the coat; the surface below it keeps the rest
+#endif
+#if HAS_SHEEN_LOBE
+    SheenLobe sheen;
+    FV sheen_most;  // the largest channel of its colour
 #endif
 };
 
@@ -192,6 +199,10 @@ SHARED_FN ShadingPoint make_shading_point(Surface s, bool orthographic) {
 #endif
 #if HAS_COAT
     p = with_coat(p, s);
+#endif
+#if HAS_SHEEN_LOBE
+    p.sheen = make_sheen_lobe(p.lobe.n_dot_v, s.sheen_roughness);
+    p.sheen_most = max(max(s.sheen.x, s.sheen.y), s.sheen.z);
 #endif
     return p;
 }

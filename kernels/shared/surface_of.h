@@ -8,8 +8,8 @@
 //   prefetch_map(map, at)                   asks the caches for what a Lookup reads
 //
 // TEXTURE_USES has the bit 1 << USE_* of every texture that some material of the scene has and the
-// G-buffer keeps. HAS_SPECULAR, HAS_CLEARCOAT, HAS_UNLIT: see surface.h. HAS_UNLIT_MATERIALS: some
-// are unlit.
+// G-buffer keeps. HAS_SPECULAR, HAS_CLEARCOAT, HAS_SHEEN, HAS_UNLIT: see surface.h.
+// HAS_UNLIT_MATERIALS: some are unlit.
 #ifndef KILOLUX_SHARED_SURFACE_OF_H
 #define KILOLUX_SHARED_SURFACE_OF_H
 #include "kernels/shared/surface.h"
@@ -213,6 +213,21 @@ SHARED_FN Surface with_clearcoat(IN(Textures) textures, IN(Fragment) f, Surface 
 }
 #endif
 
+#if HAS_SHEEN
+SHARED_FN Surface with_sheen(IN(Textures) textures, IN(Fragment) f, Surface s) {
+    MaterialRef material = AT(textures).material;
+    s.sheen = color_of(MATERIAL(material).row.sheen);
+    s.sheen_roughness = fv(MATERIAL(material).row.sheen.w);
+#if HAS_USE(USE_SHEEN_COLOR)
+    s.sheen = times_color(s.sheen, sample_use(textures, f, USE_SHEEN_COLOR));
+#endif
+#if HAS_USE(USE_SHEEN_ROUGHNESS)
+    s.sheen_roughness *= sample_use(textures, f, USE_SHEEN_ROUGHNESS).w;
+#endif
+    return s;
+}
+#endif
+
 // KHR_materials_unlit: the base colour leaves the surface, whatever the lights.
 SHARED_FN Surface with_unlit(MaterialRef material, Surface s) {
 #if HAS_UNLIT
@@ -223,6 +238,7 @@ SHARED_FN Surface with_unlit(MaterialRef material, Surface s) {
     s.albedo = zero3();
     s.metallic = fv(0.0f);
     s.coat = fv(0.0f);
+    s.sheen = zero3();
 #if HAS_UNLIT
     s.roughness = fv(UNLIT_ROUGHNESS);
 #else
@@ -264,6 +280,9 @@ SHARED_FN Surface surface_of_material(IN(Textures) textures, IN(Fragment) f) {
 #endif
 #if HAS_CLEARCOAT
     s = with_clearcoat(textures, f, s);
+#endif
+#if HAS_SHEEN
+    s = with_sheen(textures, f, s);
 #endif
 #if HAS_UNLIT || HAS_UNLIT_MATERIALS
     s = with_unlit(material, s);

@@ -60,6 +60,11 @@ static inline NodeError node_error(ShadingPoint p, TreeNode node, float4 at) {
     // Fresnel's complement is diffuse: its slope is at most 5 (1 - v.h)^4 / 2.
     float slope = 2.5f * pow(out.fresnel, 0.8f) * TREE_ROUNDING;
     out.diffuse += out.share * min(slope * spread, 1.0f);
+#if HAS_SHEEN_LOBE
+    // So is what the sheen leaves.
+    float fade = p.sheen_most * p.sheen.slope * TREE_ROUNDING;
+    out.diffuse += out.share * min(fade * spread, 1.0f);
+#endif
 #endif
 #endif
     return out;

@@ -47,6 +47,12 @@ static inline ClusterCone cone_of_pixels(GBuffer g, uint tile, global const ucha
 #if HAS_COAT
         if (s.coat > 0.0f) sharpness = max(sharpness, sharpness_of(s.coat_roughness));
 #endif
+#if HAS_SHEEN_LOBE
+        float most = max(max(s.sheen.x, s.sheen.y), s.sheen.z);
+        // As wide as its roughness: the distribution is a power 1 / alpha of a sine.
+        float width = max(s.sheen_roughness, ROUGHNESS_MIN);
+        if (most > 0.0f) sharpness = max(sharpness, WIDE_LOBE / width);
+#endif
 #endif
     }
     float length2 = dot(sum, sum);

@@ -1,7 +1,7 @@
 #version 450 core
 // SPDX-License-Identifier: Apache-2.0
 // A fragment lit where it is drawn: by every light, or with CLUSTERED by the lights of its coarse
-// cluster. SHADING, HAS_SPOT_LIGHTS, HAS_METALLIC, HAS_SPECULAR, HAS_CLEARCOAT, HAS_UNLIT,
+// cluster. SHADING, HAS_SPOT_LIGHTS, HAS_METALLIC, HAS_SPECULAR, HAS_CLEARCOAT, HAS_SHEEN, HAS_UNLIT,
 // HAS_LIGHT_PROFILES as in evaluate.h; HAS_DIRECTIONAL_LIGHTS. BLENDED: the material lets light through.
 #include "raster/shaders/surface.glsl"
 #include "kernels/shared/evaluate.h"

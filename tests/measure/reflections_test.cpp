@@ -150,6 +150,23 @@ TEST(Reflections, CoatsReflectTheRoomOverWhatIsBelow) {
     }
 }
 
+Material cloth(double roughness) {
+    Material out = material_of(1.0, 0.0);
+    out.sheen_color = {0.9f, 0.9f, 0.9f};
+    out.sheen_roughness = static_cast<float>(roughness);
+    return out;
+}
+
+// The base is dimmed for the eye's direction alone, not for that of each light: most of the error.
+TEST(Reflections, SheenReflectsTheRoomOverWhatIsBelow) {
+    const Map white = map_of([](const glm::dvec3&) { return glm::dvec3(1.0); });
+    const Map map = map_of(room);
+    for (const double roughness : {0.25, 1.0}) {
+        EXPECT_LT(pictures(white, cloth(roughness)).error(), 0.07) << roughness;
+        EXPECT_LT(pictures(map, cloth(roughness)).error(), 0.09) << roughness;
+    }
+}
+
 TEST(Reflections, AMirrorShowsTheRoom) {
     Material mirror = material_of(0.0, 1.0);
     mirror.base_color = glm::vec4(1.0f);

@@ -28,11 +28,11 @@ PICTURES = [("certify_tests", "All/HardCases.*Lanes16"), ("render_tests", "Paths
 
 # The first that fits a path below kernels/.
 STEPS = (
-    (r"shared/(evaluate|surface\.|light_sum|evaluate_modes|power)", LIGHTING + TAILS + PROFILES),
+    (r"shared/(evaluate|surface\.|light_sum|evaluate_modes|power|sheen)", LIGHTING + TAILS + PROFILES),
     (r"shared/(gbuffer|store|pack)", GBUFFER + PICTURES),
     (r"shared/(texture|mips|surface_of|surface_scene|material|triangle)", SURFACES + PICTURES),
     (r"shared/raster_row", TRIANGLES),
-    (r"shared/(hash|item_hash|light_drift|light_order|light_transform|light\.)", LIGHTS + LIGHTING + TAILS),
+    (r"shared/(hash|light_drift|light_order|light_transform|light\.)", LIGHTS + LIGHTING + TAILS),
     (r"shared/light_profile", PROFILES),
     (r"shared/light_tree", TREE),
     (r"shared/shadow", SHADOWS),

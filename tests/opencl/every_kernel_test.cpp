@@ -46,7 +46,7 @@ KernelFeatures features_of(const Variant& v) {
     features.shading = v.shading;
     features.gbuffer = v.layout;
     features.material = features.metallic = features.occlusion = true;
-    features.specular = features.clearcoat = features.unlit = true;
+    features.specular = features.clearcoat = features.sheen = features.unlit = true;
     features.spot_lights = features.directional_lights = true;
     features.light_index_bits = v.light_index_bits;
     return features;

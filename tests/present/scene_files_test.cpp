@@ -115,7 +115,7 @@ std::string write_choices(const TemporaryFolder& folder) {
 "animations":[{"name":"walk","samplers":[{"input":1,"output":0}],"channels":[
 {"sampler":0,"target":{"node":0,"path":"translation"}}]},{"name":"run","samplers":[
 {"input":1,"output":0}],"channels":[{"sampler":0,"target":{"node":0,"path":"scale"}}]}],
-"extensionsUsed":["KHR_materials_variants","KHR_materials_sheen"],
+"extensionsUsed":["KHR_materials_variants","KHR_materials_iridescence"],
 "extensions":{"KHR_materials_variants":{"variants":[{"name":"night"}]}}})";
     write_text(folder / "choices.gltf", text);
     return (folder / "choices.gltf").string();
@@ -159,7 +159,8 @@ TEST(SceneFile, ChoicesThatItDoesNotHaveAreOneLine) {
     EXPECT_EQ(export_with({"--line-width", "0%"}).code, 2);
     const ChildResult strict = export_with({"--strict"});
     EXPECT_EQ(strict.code, 1);
-    EXPECT_TRUE(contains(strict.err, "--strict: left out: KHR_materials_sheen")) << strict.err;
+    EXPECT_TRUE(contains(strict.err, "--strict: left out: KHR_materials_iridescence"))
+        << strict.err;
     const ChildResult generated = run_kilolux({"info", "grid", "--variant", "night"});
     EXPECT_EQ(generated.code, 2);
     EXPECT_TRUE(contains(generated.err, "--variant: grid is a generated scene")) << generated.err;

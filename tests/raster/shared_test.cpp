@@ -98,6 +98,7 @@ std::vector<SharedStruct> shared_structs() {
           {"row.factors", offsetof(MaterialRow, factors)},
           {"row.specular", offsetof(MaterialRow, specular)},
           {"row.clearcoat", offsetof(MaterialRow, clearcoat)},
+          {"row.sheen", offsetof(MaterialRow, sheen)},
           {"row.uv_x[0]", offsetof(MaterialRow, uv_x)},
           {"row.uv_y[0]", offsetof(MaterialRow, uv_y)},
           {"textures[0]", offsetof(SurfaceMaterial, textures)},

@@ -95,6 +95,28 @@ TEST(LightTreePictures, ErrWithinTheirBoundUnderCoats) {
     }
 }
 
+// Over black, where sheen is all light, lit from the eye's side; and narrow over white, where it
+// dims what comes in at grazing angles.
+TEST(LightTreePictures, ErrWithinTheirBoundWithSheen) {
+    for (const float white : {0.0f, 1.0f}) {
+        Scene scene = cloth_scene();
+        Material& m = scene.materials[0];
+        m.base_color = glm::vec4(white, white, white, 1.0f);
+        m.specular = m.metallic = 0.0f;
+        m.roughness = 1.0f;
+        m.sheen_roughness = white > 0.0f ? 0.0f : 0.6f;
+        m.sheen_color = glm::vec3(1.0f);
+        m.normal_texture = m.sheen_color_texture = m.sheen_roughness_texture = {};
+        const double z = white > 0.0f ? -4.5 : 6.0;
+        add_points(scene, 1500, {-4.5, 1.0, z}, {4.5, 3.0, z + 9.0});
+        for (const Tails tails : {Tails::tree, Tails::bounded}) {
+            const TailAgreement found = compare_coated(scene, tails);
+            EXPECT_EQ(found.below, 0) << white;
+            EXPECT_GT(found.looseness.size(), 100u) << white;
+        }
+    }
+}
+
 // All surfaces are turned away from all lights, their coats are not.
 TEST(LightTreePictures, CountNodesThatOnlyCoatsFace) {
     Scene scene = car_paint_scene();

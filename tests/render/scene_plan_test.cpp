@@ -25,6 +25,7 @@ constexpr Switch kSwitches[] = {
     {"occlusion", "HAS_OCCLUSION=0", "HAS_OCCLUSION=1"},
     {"specular", "HAS_SPECULAR=0", "HAS_SPECULAR=1"},
     {"clearcoat", "HAS_CLEARCOAT=0", "HAS_CLEARCOAT=1"},
+    {"sheen", "HAS_SHEEN=0", "HAS_SHEEN=1"},
     {"unlit", "HAS_UNLIT=0", "HAS_UNLIT=1"},
     {"wide-light-index", "LIGHT_INDEX=ushort", "LIGHT_INDEX=uint"}};
 
@@ -51,6 +52,7 @@ Scene scene_with(const std::string& feature) {
     if (feature == "emissive") material.emissive = glm::vec3(0.5f);
     if (feature == "specular") material.ior = 1.33f;
     if (feature == "clearcoat") material.clearcoat = 0.5f;
+    if (feature == "sheen") material.sheen_color.y = 0.5f;
     if (feature == "unlit") material.unlit = true;
     if (feature == "occlusion") {
         scene.images.push_back({"white", 1, 1, {255, 255, 255, 255}});

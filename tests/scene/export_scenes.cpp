@@ -47,6 +47,10 @@ Material everything_material() {
     m.clearcoat_roughness_texture = {1, 1, glm::mat3(1.0f)};
     m.clearcoat_normal_texture = {1, 0, glm::mat3(1.0f)};
     m.clearcoat_normal_scale = 0.7f;
+    m.sheen_color = {0.3f, 0.2f, 0.9f};
+    m.sheen_color_texture = {0, 1, glm::mat3(1.0f)};
+    m.sheen_roughness = 0.6f;
+    m.sheen_roughness_texture = {1, 0, glm::mat3(1.0f)};
     return m;
 }
 
@@ -178,6 +182,9 @@ struct Materials {
             return "coat's roughness texture";
         if (!same_use(m.clearcoat_normal_texture, n.clearcoat_normal_texture))
             return "coat's normal map";
+        if (!same_use(m.sheen_color_texture, n.sheen_color_texture)) return "sheen's texture";
+        if (!same_use(m.sheen_roughness_texture, n.sheen_roughness_texture))
+            return "sheen's roughness texture";
         return "";
     }
 };
@@ -201,6 +208,7 @@ std::string factor_difference(const Material& a, const Material& b) {
     if (a.clearcoat_normal_texture.present() &&
         a.clearcoat_normal_scale != b.clearcoat_normal_scale)
         return "coat's normal scale";
+    if (a.sheen_color != b.sheen_color || a.sheen_roughness != b.sheen_roughness) return "sheen";
     return "";
 }
 

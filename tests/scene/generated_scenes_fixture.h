@@ -7,7 +7,7 @@
 #include <string>
 
 #include "host/scene/generated/scenes.h"
-#include "kernels/shared/item_hash.h"
+#include "kernels/shared/hash.h"
 
 namespace kilolux {
 

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "host/base/error.h"
-#include "kernels/shared/item_hash.h"
+#include "kernels/shared/hash.h"
 
 namespace kilolux {
 namespace {

@@ -40,11 +40,12 @@ inline Scene sphere_scene(const Material& material) {
 }
 
 /// A texture of `size` x `size` random texels whose channels are at least `least`.
-inline TextureUse add_noise(Scene& scene, int size, unsigned seed, std::array<unsigned, 3> least) {
+inline TextureUse add_noise(Scene& scene, int size, unsigned seed, std::array<unsigned, 3> least,
+                            unsigned least_alpha = 255) {
     std::mt19937 random(seed);
     Image image{"noise", size, size, {}};
     for (int i = 0; i < 4 * size * size; ++i) {
-        const unsigned from = i % 4 == 3 ? 255u : least[static_cast<std::size_t>(i % 4)];
+        const unsigned from = i % 4 == 3 ? least_alpha : least[static_cast<std::size_t>(i % 4)];
         image.rgba.push_back(static_cast<std::uint8_t>(from + random() % (256u - from)));
     }
     scene.images.push_back(std::move(image));
@@ -70,6 +71,21 @@ inline Scene car_paint_scene() {
     scene.materials[0].clearcoat_texture = add_noise(scene, 16, 2, {128, 0, 0});
     scene.materials[0].clearcoat_roughness_texture = add_noise(scene, 16, 3, {0, 128, 0});
     scene.materials[0].clearcoat_normal_texture = add_noise(scene, 16, 4, {0, 0, 192});
+    return scene;
+}
+
+/// Cloth with sheen of two maps.
+inline Scene cloth_scene() {
+    Material m;
+    m.base_color = {0.3f, 0.1f, 0.5f, 1.0f};
+    m.metallic = 0.2f;
+    m.roughness = 0.7f;
+    m.sheen_color = {0.9f, 0.7f, 0.5f};
+    m.sheen_roughness = 0.6f;
+    Scene scene = sphere_scene(m);
+    scene.materials[0].normal_texture = add_noise(scene, 32, 1, {64, 64, 192});
+    scene.materials[0].sheen_color_texture = add_noise(scene, 16, 2, {128, 128, 128});
+    scene.materials[0].sheen_roughness_texture = add_noise(scene, 16, 3, {0, 0, 0}, 128);
     return scene;
 }
 

@@ -37,6 +37,8 @@ constexpr PlaneRow kPlanes[] = {
     {PLANE_SPECULAR_F90, {0, 4, 0, 0, 0}, &N::specular},
     {PLANE_COAT_NORMAL, {4, 0, 4, 4, 4}, &N::clearcoat},
     {PLANE_COAT_NORMAL_Z, {0, 4, 0, 0, 0}, &N::clearcoat},
+    {PLANE_SHEEN, {4, 0, 4, 4, 4}, &N::sheen},
+    {PLANE_SHEEN_ROUGHNESS, {0, 4, 0, 0, 0}, &N::sheen},
 };
 
 static_assert(std::ranges::is_sorted(kPlanes, {}, &PlaneRow::last) &&

@@ -98,6 +98,8 @@ std::vector<SurfaceSample> random_surfaces(uint width, uint height) {
         s.coat = random.unit();
         s.coat_roughness = random.uniform(0.1, 1.0);
         s.coat_normal = s.normal;
+        s.sheen = {random.unit(), random.unit(), random.unit()};
+        s.sheen_roughness = random.uniform(0.1, 1.0);
         surfaces.push_back(s);
     }
     return surfaces;

@@ -140,6 +140,12 @@ void set_coat(const SurfaceHit& hit, const Footprints& uv, SurfaceSample& out) {
     out.coat_normal = mapped_normal(hit, uv, USE_CLEARCOAT_NORMAL, m.clearcoat_normal_scale);
 }
 
+void set_sheen(const SurfaceHit& hit, const Footprints& uv, SurfaceSample& out) {
+    const Material& m = material_of(hit);
+    out.sheen = glm::dvec3(m.sheen_color) * glm::dvec3(texel(hit, USE_SHEEN_COLOR, uv));
+    out.sheen_roughness = m.sheen_roughness * texel(hit, USE_SHEEN_ROUGHNESS, uv).w;
+}
+
 void set_reflectance(const SurfaceHit& hit, const Footprints& uv, SurfaceSample& out) {
     const Material& m = material_of(hit);
     const double root = (double{m.ior} - 1.0) / (double{m.ior} + 1.0);
@@ -154,6 +160,7 @@ void apply_unlit(SurfaceSample& surface) {
     surface.emissive = surface.albedo;
     surface.albedo = glm::dvec3(0.0);
     surface.coat = 0.0;
+    surface.sheen = glm::dvec3(0.0);
 }
 
 }  // namespace
@@ -185,6 +192,7 @@ SurfaceSample surface_at(const SurfaceHit& hit) {
     out.emissive = glm::dvec3(material.emissive) * glm::dvec3(texel(hit, USE_EMISSIVE, uv));
     set_reflectance(hit, uv, out);
     set_coat(hit, uv, out);
+    set_sheen(hit, uv, out);
     if (material.unlit) apply_unlit(out);
     return out;
 }

@@ -56,7 +56,8 @@ Pixel shade(const SurfaceSample& surface, const ReferenceLights& lights,
     const double below = 1.0 - reference_coat_share(surface, to_eye, options.shading);
     pixel.radiance.add(below * surface.emissive);
     if (surface.kind != SurfaceKind::lit) return pixel;
-    pixel.radiance.add(below * options.ambient * surface.occlusion * surface.albedo);
+    pixel.radiance.add(below * options.ambient * surface.occlusion *
+                       reference_ambient_albedo(surface, to_eye, options.shading));
     std::optional<ShadowPoint> point;  // none: it sees every light
     if (options.shadows != nullptr) point = options.shadows->point_at(surface.position);
     for (const ReferenceDirectionalLight& light : lights.directional) {

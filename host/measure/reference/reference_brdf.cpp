@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/measure/reference/reference_sheen.h"
+
 namespace kilolux {
 namespace {
 
@@ -110,6 +112,14 @@ double reference_coat_share(const SurfaceSample& surface, const glm::dvec3& to_e
     return surface.coat * (0.04 + 0.96 * std::pow(std::max(1.0 - n_dot_v, 0.0), 5.0));
 }
 
+glm::dvec3 reference_ambient_albedo(const SurfaceSample& s, const glm::dvec3& to_eye,
+                                    Shading model) {
+    if (model != Shading::pbr) return s.albedo;
+    const double n_dot_v = std::max(glm::dot(s.normal, to_eye), kNDotVMin);
+    const double taken = reference_sheen_albedo(n_dot_v, s.sheen_roughness);
+    return s.albedo * (1.0 - std::max({s.sheen.x, s.sheen.y, s.sheen.z}) * taken) + s.sheen * taken;
+}
+
 glm::dvec3 reference_reflection(const SurfaceSample& surface, const glm::dvec3& to_eye,
                                 const glm::dvec3& to_light, Shading model) {
     const double n_dot_l = glm::dot(surface.normal, to_light);
@@ -117,7 +127,13 @@ glm::dvec3 reference_reflection(const SurfaceSample& surface, const glm::dvec3& 
     const double share = reference_coat_share(surface, to_eye, model);
     glm::dvec3 out(0.0);
     if (n_dot_l > 0.0) {
-        out += (1.0 - share) * n_dot_l * reference_brdf(surface, to_eye, to_light, model);
+        glm::dvec3 below = n_dot_l * reference_brdf(surface, to_eye, to_light, model);
+        if (model == Shading::pbr && surface.sheen != glm::dvec3(0.0)) {
+            const double n_dot_v = std::max(glm::dot(surface.normal, to_eye), kNDotVMin);
+            below *= reference_below_sheen(surface, n_dot_v, n_dot_l);
+            below += surface.sheen * reference_sheen(surface, to_eye, to_light);
+        }
+        out += (1.0 - share) * below;
     }
     if (coat_dot_l > 0.0 && share > 0.0) {
         const double alpha2 = alpha2_of(surface.coat_roughness);

@@ -8,7 +8,8 @@
 
 namespace kilolux {
 
-/// The BRDF [1/sr] of a surface without its clear coat, in double, independent of the kernels.
+/// The BRDF [1/sr] of a surface without its clear coat and sheen, in double, independent of the
+/// kernels.
 ///
 /// `to_eye` is unit; `to_light` is unit, or shorter for a light nearer than 1 cm.
 /// lambert:     albedo / pi.
@@ -25,8 +26,13 @@ glm::dvec3 reference_brdf(const SurfaceSample& surface, const glm::dvec3& to_eye
 /// emission, keeps the rest. pbr: KHR_materials_clearcoat's fresnel_coat(); 0 otherwise.
 double reference_coat_share(const SurfaceSample& surface, const glm::dvec3& to_eye, Shading model);
 
+/// The share of ambient light that a surface without its clear coat sends to the eye. pbr: with its
+/// sheen, as of even light from all directions.
+glm::dvec3 reference_ambient_albedo(const SurfaceSample& surface, const glm::dvec3& to_eye,
+                                    Shading model);
+
 /// Radiance that the surface sends to the eye by irradiance 1 from `to_light`, perpendicular to it:
-/// BRDF times cosine of the surface and of its coat, mixed by the coat's share.
+/// BRDF times cosine of the surface with its sheen and of its coat, mixed by the coat's share.
 glm::dvec3 reference_reflection(const SurfaceSample& surface, const glm::dvec3& to_eye,
                                 const glm::dvec3& to_light, Shading model);
 

@@ -55,6 +55,8 @@ constexpr MaterialFeature kMaterialFeatures[] = {
     {&F::specular, [](const Material& m) { return !m.unlit && has_own_reflectance(m); },
      SHADING_BLINN_PHONG},
     {&F::clearcoat, [](const Material& m) { return !m.unlit && m.clearcoat > 0.0f; }, SHADING_PBR},
+    {&F::sheen, [](const Material& m) { return !m.unlit && m.sheen_color != glm::vec3(0.0f); },
+     SHADING_PBR},
     {&F::unlit_materials, [](const Material& m) { return m.unlit; }},
     {&F::normal_maps, [](const Material& m) { return tangent_map(m).present(); }},
     {&F::alpha_mask, [](const Material& m) { return m.alpha_mode == AlphaMode::mask; }},

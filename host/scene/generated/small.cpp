@@ -9,7 +9,7 @@
 #include "host/scene/camera.h"
 #include "host/scene/generated/bake.h"
 #include "host/scene/generated/noise.h"
-#include "kernels/shared/item_hash.h"
+#include "kernels/shared/hash.h"
 
 namespace kilolux {
 namespace {

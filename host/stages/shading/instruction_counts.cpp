@@ -23,6 +23,13 @@ constexpr InstructionCounts kPowOfCos2 = {36.0, 0.0, 0.0, 1.0};
 // division 1.
 constexpr InstructionCounts kGgx = {21.0, 0.0, 1.0, 1.0};
 
+InstructionCounts sheen_instructions() {
+    // n x h 6, its square 3, n.h 3 and its square 1; lambda: the cosine or its complement 4, the
+    // other 1, l 4 with a division, its mirror 2, exponential 15; sum 1, a division 1, none from
+    // behind 2, weight 1; E: 4, exponential 13; the rest 2 and the base's weight 1.
+    return InstructionCounts{64.0, 0.0, 0.0, 2.0} + 2.0 * kPowOfCos2;
+}
+
 InstructionCounts blinn_phong_instructions() {
     // n.h 3 and its square 1, n x h 6 and its square 3, none from behind 2; weight 1.
     return kHalfVector + InstructionCounts{16.0} + kPowOfCos2 + 2.0 * kAddScaled;
@@ -39,6 +46,7 @@ InstructionCounts pbr_instructions(const KernelFeatures& kernels) {
     InstructionCounts work = kHalfVector + lobe + sums;
     // n.l 3 + 1 + 1, falloff 1; the lobe without Schlick's 10 but with its own weight.
     if (kernels.clearcoat) work = work + InstructionCounts{6.0} + kGgx + kAddScaled;
+    if (kernels.sheen) work = work + sheen_instructions() + kAddScaled;
     return work;
 }
 

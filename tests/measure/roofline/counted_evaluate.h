@@ -5,9 +5,11 @@
 #undef KILOLUX_SHARED_LIGHT_H
 #undef KILOLUX_SHARED_LIGHT_SUM_H
 #undef KILOLUX_SHARED_POWER_H
+#undef KILOLUX_SHARED_SHEEN_H
 #undef KILOLUX_SHARED_SURFACE_H
 #undef F0_VARIES
 #undef HAS_COAT
+#undef HAS_SHEEN_LOBE
 #undef EARLY_OUT
 namespace COUNTED {
 using namespace counting;
@@ -25,7 +27,7 @@ inline ShadingPoint some_point() {
     Surface surface{};
     surface.position = {fv(0.1f), fv(0.2f), fv(-3.0f)};
     surface.normal = normal;
-    surface.roughness = surface.coat_roughness = fv(0.5f);
+    surface.roughness = surface.coat_roughness = surface.sheen_roughness = fv(0.5f);
     surface.coat_normal = normal;
     return make_shading_point(surface, false);
 }
@@ -33,7 +35,7 @@ inline ShadingPoint some_point() {
 // A sum in progress: adding to it counts.
 inline LightSum some_sum() {
     LightSum sum = zero_sum();
-    for (FV3* part : {&sum.diffuse, &sum.specular, &sum.coat})
+    for (FV3* part : {&sum.diffuse, &sum.specular, &sum.coat, &sum.sheen})
         for (FV* component : {&part->x, &part->y, &part->z}) component->varies = true;
     return sum;
 }

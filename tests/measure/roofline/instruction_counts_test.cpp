@@ -10,6 +10,7 @@
 #define HAS_METALLIC 0
 #define HAS_SPECULAR 0
 #define HAS_CLEARCOAT 0
+#define HAS_SHEEN 0
 #define HAS_SPOT_LIGHTS 0
 #define SHADING SHADING_LAMBERT
 #define COUNTED lambert
@@ -58,6 +59,10 @@
 #define HAS_CLEARCOAT 1
 #define COUNTED pbr_specular_coat_spots
 #include "tests/measure/roofline/counted_evaluate.h"
+#undef HAS_SHEEN
+#define HAS_SHEEN 1
+#define COUNTED pbr_every_lobe_spots
+#include "tests/measure/roofline/counted_evaluate.h"
 
 namespace {
 
@@ -71,7 +76,7 @@ struct Case {
     InstructionCounts (*count_directional)();
     struct {
         int shading;
-        bool metallic = false, specular = false, spots = false, clearcoat = false;
+        bool metallic = false, specular = false, spots = false, clearcoat = false, sheen = false;
     } of;
 
     kilolux::KernelFeatures features() const {
@@ -80,6 +85,7 @@ struct Case {
         features.metallic = of.metallic;
         features.specular = of.specular;
         features.clearcoat = of.clearcoat;
+        features.sheen = of.sheen;
         features.spot_lights = of.spots;
         return features;
     }
@@ -102,6 +108,8 @@ const Case kCases[] = {
     CASE(pbr_specular_spots, .shading = SHADING_PBR, .specular = true, .spots = true),
     CASE(pbr_specular_coat_spots, .shading = SHADING_PBR, .specular = true, .spots = true,
          .clearcoat = true),
+    CASE(pbr_every_lobe_spots, .shading = SHADING_PBR, .specular = true, .spots = true,
+         .clearcoat = true, .sheen = true),
     CASE(pbr_metallic_specular, .shading = SHADING_PBR, .metallic = true, .specular = true),
 };
 #undef CASE

@@ -33,6 +33,10 @@ kernel void probe(global const float* in, uint count, global const ShadeLight* l
     s.coat_roughness = VALUE(20);
     s.coat_normal = fv3(VALUE(21), VALUE(22), VALUE(23));
 #endif
+#if HAS_SHEEN
+    s.sheen = fv3(VALUE(24), VALUE(25), VALUE(26));
+    s.sheen_roughness = VALUE(27);
+#endif
     ShadingPoint p = make_shading_point(s, orthographic != 0);
     LightSum sum = zero_sum();
     for (uint k = 0; k < directional_count; ++k) sum = evaluate_directional(sum, p, directional[k]);
@@ -64,7 +68,8 @@ std::vector<float> rows_of(const SurfaceD& s) {
                              s.albedo.z,       s.emissive.x,    s.emissive.y,    s.emissive.z,
                              s.roughness,      s.metallic,      s.occlusion,     s.specular.x,
                              s.specular.y,     s.specular.z,    s.specular_f90,  s.coat,
-                             s.coat_roughness, s.coat_normal.x, s.coat_normal.y, s.coat_normal.z};
+                             s.coat_roughness, s.coat_normal.x, s.coat_normal.y, s.coat_normal.z,
+                             s.sheen.x,        s.sheen.y,       s.sheen.z,       s.sheen_roughness};
     std::vector<float> rows;
     for (const double value : values) rows.push_back(static_cast<float>(value));
     return rows;
@@ -82,7 +87,9 @@ SurfaceD surface_of(const std::vector<float>& r) {
             r[18],
             r[19],
             r[20],
-            {r[21], r[22], r[23]}};
+            {r[21], r[22], r[23]},
+            {r[24], r[25], r[26]},
+            r[27]};
 }
 
 template <typename T>
@@ -97,7 +104,7 @@ ProbeResult probe_evaluate(const std::vector<SurfaceD>& surfaces, const Lighting
     const Gpu gpu = test_gpu(lanes);
     const std::size_t count = round_up(surfaces.size(), 16);
     ProbeResult result;
-    std::vector<float> in(24 * count, 0.5f);
+    std::vector<float> in(28 * count, 0.5f);
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
         const std::vector<float> rows = rows_of(surfaces[i]);
         for (std::size_t row = 0; row < rows.size(); ++row) in[row * count + i] = rows[row];
@@ -108,6 +115,7 @@ ProbeResult probe_evaluate(const std::vector<SurfaceD>& surfaces, const Lighting
                                      .define("HAS_METALLIC", 1)
                                      .define("HAS_SPECULAR", 1)
                                      .define("HAS_CLEARCOAT", lighting.clearcoat ? 1 : 0)
+                                     .define("HAS_SHEEN", lighting.sheen ? 1 : 0)
                                      .define("HAS_SPOT_LIGHTS", 1);
     const auto found =
         run_probe<float>(gpu, {kEvaluateHeaders, kEvaluateProbe, options}, count / lanes_of(gpu),

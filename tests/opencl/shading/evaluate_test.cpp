@@ -76,6 +76,14 @@ SurfaceD coated_surface(Random& random, double roughness_min) {
     return s;
 }
 
+// With sheen, half of them under a coat.
+SurfaceD sheen_surface(Random& random) {
+    SurfaceD s = random.below(2) == 0 ? random_surface(random, 0.3) : coated_surface(random, 0.3);
+    s.sheen = {random.unit(), random.unit(), random.unit()};
+    s.sheen_roughness = random.uniform(0.3, 1);
+    return s;
+}
+
 TEST(Evaluate, AgreesWithDoubleForPointSpotAndDirectionalLights) {
     Random random(21);
     std::vector<ShadeLight> lights;
@@ -92,6 +100,7 @@ TEST(Evaluate, AgreesWithDoubleForPointSpotAndDirectionalLights) {
     std::vector<SurfaceD> surfaces;
     for (int i = 0; i < 3000; ++i) surfaces.push_back(random_surface(random, 0.3));
     for (int i = 0; i < 3000; ++i) surfaces.push_back(coated_surface(random, 0.3));
+    for (int i = 0; i < 3000; ++i) surfaces.push_back(sheen_surface(random));
     for (const int shading : kShadings) {
         for (const bool orthographic : {false, true}) {
             const Lighting all{lights, sun, 0.1, orthographic, shading};
@@ -294,6 +303,61 @@ TEST(Evaluate, CoatsOfNoFactorChangeNoBit) {
         Lighting lighting{lights, {}, 0.1, false, SHADING_PBR};
         const ProbeResult with = probe_evaluate(surfaces, lighting);
         lighting.clearcoat = false;
+        const ProbeResult without = probe_evaluate(surfaces, lighting);
+        for (std::size_t i = 0; i < surfaces.size(); ++i) {
+            ASSERT_EQ(with.radiance[i], without.radiance[i]) << i << ", intensity " << intensity;
+        }
+    }
+}
+
+// Sheen of every roughness and cosine to the eye and, by turns, to the light; 0 is clamped.
+TEST(Evaluate, SheenOfAnyRoughnessIsAccurateAtAnyAngle) {
+    const std::vector<ShadeLight> lights = {light_at({2, 0.5, -4}, 50, {1, 2, 3})};
+    for (const double roughness : {0.0, 0.045, 0.1, 0.3, 1.0}) {
+        std::vector<SurfaceD> surfaces;
+        for (const double cosine : {1.0, 0.5, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 0.0}) {
+            for (const double around : {0.0, 1.0, 2.0, 3.0, 4.0, 5.0}) {
+                const double sine = std::sqrt(1 - cosine * cosine);
+                SurfaceD s;
+                s.position = {0, 0, -3};
+                s.normal = {sine * std::cos(around), sine * std::sin(around), cosine};
+                s.sheen = {0.2, 0.9, 1};
+                s.sheen_roughness = roughness;
+                surfaces.push_back(s);
+                // The same angle to the light.
+                const glm::dvec3 l = glm::normalize(glm::dvec3(2, 0.5, -1));
+                const glm::dvec3 side = glm::normalize(cross(l, glm::dvec3(0, 0, 1)));
+                s.normal = l * cosine +
+                           (cross(l, side) * std::cos(around) + side * std::sin(around)) * sine;
+                if (s.normal.z > 0) surfaces.push_back(s);
+            }
+        }
+        // The exponent of a narrow lobe magnifies the rounding of sin^2, up to 250 times.
+        const double tolerance = roughness < 0.3 ? 2e-4 : kEvaluateTolerance;
+        EXPECT_LE(worst_error(surfaces, {lights, {}, 0.1, false, SHADING_PBR}), tolerance)
+            << roughness;
+    }
+}
+
+// A black sheen changes no bit, also where its lobe overflows.
+TEST(Evaluate, SheenOfNoColorChangesNoBit) {
+    Random random(29);
+    std::vector<SurfaceD> surfaces;
+    for (int i = 0; i < 500; ++i) {
+        surfaces.push_back(random_surface(random, 0.3));
+        surfaces.back().sheen_roughness = 0;
+        // Seen almost edge-on, half of them: there the lobe is brightest.
+        const glm::dvec3 eye = -glm::normalize(surfaces.back().position);
+        const glm::dvec3 side = glm::normalize(cross(eye, random.direction()));
+        if (i % 2 == 0) surfaces.back().normal = glm::normalize(side + 0.05 * eye);
+    }
+    for (const double intensity : {1.0, 5e37}) {
+        const std::vector<ShadeLight> lights = {
+            light_at({0.1, 0.2, 0.3}, 90, glm::dvec3(1, 2, 3) * intensity),
+            light_at({3, 2, -5}, 90, glm::dvec3(1, 2, 3) * intensity)};
+        Lighting lighting{lights, {}, 0.1, false, SHADING_PBR};
+        const ProbeResult with = probe_evaluate(surfaces, lighting);
+        lighting.sheen = false;
         const ProbeResult without = probe_evaluate(surfaces, lighting);
         for (std::size_t i = 0; i < surfaces.size(); ++i) {
             ASSERT_EQ(with.radiance[i], without.radiance[i]) << i << ", intensity " << intensity;

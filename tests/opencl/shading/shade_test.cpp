@@ -73,7 +73,7 @@ KernelFeatures full_features(int shading) {
     KernelFeatures features;
     features.shading = shading;
     features.material = features.metallic = features.occlusion = features.specular = true;
-    features.clearcoat = true;
+    features.clearcoat = features.sheen = true;
     features.spot_lights = features.directional_lights = true;
     return features;
 }
@@ -104,13 +104,16 @@ SurfaceD surface_at(const Planes& planes, uint x, uint y) {
     s.coat = planes.at(SURFACE_COAT, x, y);
     s.coat_roughness = planes.at(SURFACE_COAT_ROUGHNESS, x, y);
     s.coat_normal = planes.vector(SURFACE_COAT_NORMAL, x, y);
+    s.sheen = planes.vector(SURFACE_SHEEN, x, y);
+    s.sheen_roughness = planes.at(SURFACE_SHEEN_ROUGHNESS, x, y);
     return s;
 }
 
 // Lobes narrower than roughness 0.3 and normals away from the eye are evaluate_test.cpp's subject.
 bool is_well_conditioned(const SurfaceD& s, bool orthographic) {
     const glm::dvec3 eye = orthographic ? glm::dvec3{0, 0, 1} : s.position * -1.0;
-    return std::min(s.roughness, s.coat_roughness) >= 0.3 && dot(s.normal, eye) > 0;
+    return std::min({s.roughness, s.coat_roughness, s.sheen_roughness}) >= 0.3 &&
+           dot(s.normal, eye) > 0;
 }
 
 void expect_as_double(const FrameInput& in) {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "kernels/shared/evaluate_modes.h"
+#include "kernels/shared/sheen.h"
 
 namespace kilolux {
 namespace {
@@ -71,6 +72,49 @@ double coat_weight(const SurfaceD& s, glm::dvec3 v) {
     return s.coat * (f0 + (1 - f0) * std::pow(std::max(1 - nv, 0.0), 5));
 }
 
+// KHR_materials_sheen, "Sheen visibility".
+double sheen_l(double x, double alpha) {
+    const double t = (1 - alpha) * (1 - alpha);
+    const double a = std::lerp(21.5473, 25.3245, t), b = std::lerp(3.82987, 3.32435, t);
+    const double c = std::lerp(0.19823, 0.16801, t), d = std::lerp(-1.97760, -1.27393, t);
+    const double e = std::lerp(-4.32054, -4.85967, t);
+    return a / (1 + b * std::pow(x, c)) + d * x + e;
+}
+
+double lambda_sheen(double cosine, double alpha) {
+    return cosine < 0.5 ? std::exp(sheen_l(cosine, alpha))
+                        : std::exp(2 * sheen_l(0.5, alpha) - sheen_l(1 - cosine, alpha));
+}
+
+// Ibid., E() by the coefficients of the kernels.
+double sheen_albedo(double x, double roughness) {
+    const double r = std::max(roughness, 0.045);
+    double power = 1, sum = 0;
+#define ADD_POWER(name, one, of_r, of_r2, of_r3, of_inverse, of_inverse2)                        \
+    sum += power *                                                                               \
+           (double{one} + double{of_r} * r + double{of_r2} * r * r + double{of_r3} * r * r * r + \
+            double{of_inverse} / r + double{of_inverse2} / (r * r));                             \
+    power *= x;
+    SHEEN_ALBEDO_ROWS(ADD_POWER)
+#undef ADD_POWER
+    return std::exp2(std::min(sum, 0.0));
+}
+
+double most_of(glm::dvec3 c) { return std::max({c.x, c.y, c.z}); }
+
+// f_sheen n.l + f_base n.l sheenAlbedoScaling.
+glm::dvec3 with_sheen(const SurfaceD& s, glm::dvec3 base, glm::dvec3 v, glm::dvec3 l) {
+    const glm::dvec3 n = glm::normalize(s.normal), h = glm::normalize(l + v);
+    const double alpha = alpha_of(s.sheen_roughness);
+    const double nv = std::max(dot(n, v), kSmallestNdotV), nl = std::min(dot(n, l), 1.0);
+    const double sin2h = std::min(dot(cross(n, h), cross(n, h)), 1.0);
+    const double d = (2 + 1 / alpha) * std::pow(sin2h, 0.5 / alpha) / (2 * std::numbers::pi);
+    const double shadow = 1 + lambda_sheen(std::min(nv, 1.0), alpha) + lambda_sheen(nl, alpha);
+    const double taken =
+        std::max(sheen_albedo(nv, s.sheen_roughness), sheen_albedo(nl, s.sheen_roughness));
+    return s.sheen * (d / (shadow * 4 * nv)) + base * (1 - most_of(s.sheen) * taken);
+}
+
 glm::dvec3 blinn_phong_brdf(const SurfaceD& s, glm::dvec3 n, glm::dvec3 v, glm::dvec3 l) {
     const double exponent = 2 / std::pow(alpha_of(s.roughness), 2) - 2;
     const double nh = std::max(dot(n, glm::normalize(l + v)), 0.0);
@@ -103,13 +147,15 @@ ReferenceRadiance reference_radiance(const SurfaceD& s, const Lighting& lighting
         lighting.orthographic ? glm::dvec3{0, 0, 1} : glm::normalize(s.position * -1.0);
     const glm::dvec3 coat_normal = glm::normalize(s.coat_normal);
     const double weight = lighting.shading == SHADING_PBR ? coat_weight(s, eye) : 0;
+    const bool has_sheen = lighting.shading == SHADING_PBR && most_of(s.sheen) > 0;
     ReferenceRadiance sum;
     const auto add = [&](glm::dvec3 l, glm::dvec3 strength) {
         sum.scale += std::max({strength.x, strength.y, strength.z});
         if (strength.x + strength.y + strength.z == 0) return;
         const double nl = dot(n, l), coat_nl = dot(coat_normal, l);
         if (nl > 0) {
-            sum.value += brdf(lighting.shading, s, n, eye, l) * strength * nl * (1 - weight);
+            const glm::dvec3 base = brdf(lighting.shading, s, n, eye, l) * nl;
+            sum.value += (has_sheen ? with_sheen(s, base, eye, l) : base) * strength * (1 - weight);
         }
         if (coat_nl > 0 && weight > 0) {
             sum.value += strength *
@@ -127,7 +173,12 @@ ReferenceRadiance reference_radiance(const SurfaceD& s, const Lighting& lighting
         const double falloff = clamp01(1 - ratio4) / (d * d) * cone_of(light, to_light);
         add(to_light, dvec3_of(light.color_scale) * falloff);
     }
-    const glm::dvec3 own = s.albedo * (lighting.ambient * s.occlusion) + s.emissive;
+    glm::dvec3 albedo = s.albedo;
+    if (has_sheen) {
+        const double taken = sheen_albedo(std::max(dot(n, eye), kSmallestNdotV), s.sheen_roughness);
+        albedo = albedo * (1 - most_of(s.sheen) * taken) + s.sheen * taken;
+    }
+    const glm::dvec3 own = albedo * (lighting.ambient * s.occlusion) + s.emissive;
     sum.value += own * (1 - weight);
     sum.scale += weight * std::max({own.x, own.y, own.z});  // what the coat takes away
     return sum;

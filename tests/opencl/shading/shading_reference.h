@@ -19,6 +19,8 @@ struct SurfaceD {
     double specular_f90 = 1;                // and at grazing angles
     double coat = 0, coat_roughness = 1;    // KHR_materials_clearcoat
     glm::dvec3 coat_normal{0.0, 0.0, 1.0};  // any length
+    glm::dvec3 sheen{0.0, 0.0, 0.0};        // KHR_materials_sheen
+    double sheen_roughness = 1;
 };
 
 /// The lights and the view of a surface.
@@ -29,6 +31,7 @@ struct Lighting {
     bool orthographic = false;
     int shading = 0;        // SHADING_*
     bool clearcoat = true;  // compiled in
+    bool sheen = true;
 };
 
 struct ReferenceRadiance {

@@ -109,6 +109,17 @@ Scene coated_scene() {
     return scene;
 }
 
+Scene sheen_scene() {
+    Scene scene = mapped_scene();
+    for (Material& m : scene.materials) {
+        m.sheen_color_texture = add_noise(scene, 64, trilinear(Wrap::repeat), 11);
+        m.sheen_color = {0.9f, 0.5f, 0.7f};
+        m.sheen_roughness_texture = add_noise(scene, 64, trilinear(Wrap::repeat), 12);
+        m.sheen_roughness = 0.8f;
+    }
+    return scene;
+}
+
 Scene mapped_scene_with_other_filters() {
     Scene scene = mapped_scene();
     for (std::size_t i = 0; i < scene.textures.size(); ++i) {

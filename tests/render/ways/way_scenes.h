@@ -14,6 +14,9 @@ Scene mapped_scene();
 /// The same under clear coats with maps of their own.
 Scene coated_scene();
 
+/// The same with sheen of two maps, without coats.
+Scene sheen_scene();
+
 /// mapped_scene() with nearest texels and levels, and textures without mipmaps.
 Scene mapped_scene_with_other_filters();
 

@@ -74,9 +74,10 @@ TEST(LoadSceneExtensions, RefusesWhatItCannotDoWithout) {
 
 TEST(LoadSceneExtensions, StrictRefusesWhateverThePictureLacks) {
     EXPECT_EQ(strict_error(triangle_file()), "");
-    const std::string error = strict_error(file_with({"KHR_materials_sheen"}, json::array()));
-    EXPECT_TRUE(
-        contains(error, "scene.gltf: --strict: left out: KHR_materials_sheen (cloth has no sheen)"))
+    const std::string error = strict_error(file_with({"KHR_materials_iridescence"}, json::array()));
+    EXPECT_TRUE(contains(
+        error,
+        "scene.gltf: --strict: left out: KHR_materials_iridescence (thin films show no colours)"))
         << error;
     GltfBuilder file = triangle_file();
     file.primitive()["attributes"].erase("POSITION");

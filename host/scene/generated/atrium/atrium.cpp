@@ -13,7 +13,7 @@
 #include "host/scene/generated/atrium/plan.h"
 #include "host/scene/generated/atrium/side.h"
 #include "host/scene/generated/small.h"
-#include "kernels/shared/item_hash.h"
+#include "kernels/shared/hash.h"
 
 namespace kilolux {
 namespace {

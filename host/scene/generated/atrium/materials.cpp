@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "host/scene/generated/atrium/textures.h"
-#include "kernels/shared/item_hash.h"
+#include "kernels/shared/hash.h"
 
 namespace kilolux {
 namespace {
