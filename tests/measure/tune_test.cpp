@@ -2,6 +2,7 @@
 #include "host/measure/bench/tune.h"
 
 #include <gtest/gtest.h>
+#include <map>
 
 #include <random>
 
@@ -206,6 +207,8 @@ TEST(FeatureCosts, OfNoiseAreSeldomMeasurable) {
 }
 
 TEST(FeatureCosts, NameEveryLeftOutFeature) {
+    const std::map<std::string, int> bytes_of = {{"emissive", 4},  {"metallic", 4},  {"specular", 4},
+                                               {"occlusion", 1}, {"clearcoat", 8}, {"sheen", 4}};
     const Scene scene = make_generated_scene("plain");
     RenderSettings settings = small_frame();
     settings.shading = Shading::lambert;
@@ -217,12 +220,8 @@ TEST(FeatureCosts, NameEveryLeftOutFeature) {
         EXPECT_EQ(costs[i].feature, plan.left_out[i]);
     for (const FeatureCost& cost : costs) {
         EXPECT_NE(cost.measured, !cost.why.empty()) << cost.feature;
-        const bool plane =
-            cost.feature == "emissive" || cost.feature == "metallic" || cost.feature == "specular";
-        EXPECT_EQ(cost.bytes_per_pixel, plane                         ? 4
-                                        : cost.feature == "occlusion" ? 1
-                                                                      : 0)
-            << cost.feature;
+        const auto bytes = bytes_of.find(cost.feature);
+        EXPECT_EQ(cost.bytes_per_pixel, bytes == bytes_of.end() ? 0 : bytes->second) << cost.feature;
     }
 }
 

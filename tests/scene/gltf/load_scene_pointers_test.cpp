@@ -178,7 +178,7 @@ TEST(LoadScenePointers, VisibilityGoesByStepsWithTheSubtree) {
 
 TEST(LoadScenePointers, OneWarningNamesWhatIsNotRead) {
     const std::vector<std::string> pointers = {
-        "/materials/0/extensions/KHR_materials_sheen/sheenRoughnessFactor",
+        "/materials/0/extensions/KHR_materials_iridescence/iridescenceFactor",
         "/materials/1/normalTexture/scale",  // it has no such texture
         "/materials/99/emissiveFactor",
         "/materials//emissiveFactor",
