@@ -207,8 +207,9 @@ TEST(FeatureCosts, OfNoiseAreSeldomMeasurable) {
 }
 
 TEST(FeatureCosts, NameEveryLeftOutFeature) {
-    const std::map<std::string, int> bytes_of = {{"emissive", 4},  {"metallic", 4},  {"specular", 4},
-                                               {"occlusion", 1}, {"clearcoat", 8}, {"sheen", 4}};
+    const std::map<std::string, int> bytes_of = {{"emissive", 4},  {"metallic", 4},
+                                                 {"specular", 4},  {"occlusion", 1},
+                                                 {"clearcoat", 8}, {"sheen", 4}};
     const Scene scene = make_generated_scene("plain");
     RenderSettings settings = small_frame();
     settings.shading = Shading::lambert;
@@ -221,7 +222,8 @@ TEST(FeatureCosts, NameEveryLeftOutFeature) {
     for (const FeatureCost& cost : costs) {
         EXPECT_NE(cost.measured, !cost.why.empty()) << cost.feature;
         const auto bytes = bytes_of.find(cost.feature);
-        EXPECT_EQ(cost.bytes_per_pixel, bytes == bytes_of.end() ? 0 : bytes->second) << cost.feature;
+        EXPECT_EQ(cost.bytes_per_pixel, bytes == bytes_of.end() ? 0 : bytes->second)
+            << cost.feature;
     }
 }
 
