@@ -178,9 +178,9 @@ std::vector<Draw> DrawList::visible(const Camera& camera, int width, int height,
     for (std::size_t i = 0; i < scene_.instances.size(); ++i) {
         const Instance& instance = scene_.instances[i];
         const MeshBox& mesh = box_of(instance.mesh);
-        if (mesh.blended != blended || mesh.box.empty()) continue;
         const std::size_t first_caster = casters;
         casters += scene_.meshes[static_cast<std::size_t>(instance.mesh)].indices.size() / 3;
+        if (mesh.blended != blended || mesh.box.empty()) continue;
         const glm::dmat4 transform = view_from_object(camera, instance.world_from_object);
         const std::array<glm::dvec4, 8> corners = corners_of(mesh.box, transform);
         if (outside(corners, clip)) continue;

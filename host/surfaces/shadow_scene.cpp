@@ -14,15 +14,6 @@ namespace {
 
 constexpr std::string_view kShadowOwner = "shadows";
 
-std::uint64_t caster_count(const Scene& scene) {
-    std::uint64_t count = 0;
-    for (const Instance& instance : scene.instances) {
-        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-        if (!is_blended(scene, mesh)) count += mesh.indices.size() / 3;
-    }
-    return count;
-}
-
 // Vertex colours and texture coordinates of a masked triangle.
 MaskedCaster masked_caster(const Scene& scene, const Mesh& mesh, std::size_t triangle,
                            uint number) {
@@ -42,7 +33,7 @@ MaskedCaster masked_caster(const Scene& scene, const Mesh& mesh, std::size_t tri
 
 // All casters on their way to the device.
 struct Casters {
-    std::vector<float> triangles;
+    std::vector<float> triangles;  // also those that cast no shadows, which rays end at
     std::vector<CasterBox> boxes;
     std::vector<MaskedCaster> masked;
     float extent = 0.0f;
@@ -65,7 +56,7 @@ bool padded_box(const float* corners, CasterBox& box) {
     return true;
 }
 
-void add_triangle(const float* corners, uint child, Casters& out) {
+void add_triangle(const float* corners, uint child, bool casts, Casters& out) {
     CasterBox box;
     box.child = SHADOW_LEAF | child;
     if (!padded_box(corners, box)) return;
@@ -73,13 +64,13 @@ void add_triangle(const float* corners, uint child, Casters& out) {
         const float* p = corners + std::size_t{3} * static_cast<std::size_t>(i);
         out.extent = std::max(out.extent, std::abs(p[0]) + std::abs(p[1]) + std::abs(p[2]));
     }
-    out.boxes.push_back(box);
+    if (casts) out.boxes.push_back(box);
 }
 
 void add_instance(const Scene& scene, const Instance& instance, const glm::dvec3& anchor,
                   Casters& out) {
     const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-    if (is_blended(scene, mesh)) return;
+    const bool casts = !is_blended(scene, mesh);
     const bool masked = material_of(scene, mesh).alpha_mode == AlphaMode::mask;
     glm::dmat4 shadow_from_object = instance.world_from_object;
     shadow_from_object[3] -= glm::dvec4(anchor, 0.0);
@@ -99,7 +90,7 @@ void add_instance(const Scene& scene, const Instance& instance, const glm::dvec3
             child = SHADOW_MASKED | static_cast<uint>(out.masked.size());
             out.masked.push_back(masked_caster(scene, mesh, i, number));
         }
-        add_triangle(&out.triangles[std::size_t{9} * number], child, out);
+        add_triangle(&out.triangles[std::size_t{9} * number], child, casts, out);
     }
 }
 
@@ -119,7 +110,7 @@ float4 row(const glm::dvec3& axis, double offset) {
 std::uint64_t shadow_scene_bytes(const Scene& scene) {
     // A node has four children or more, so there is at most a node for three triangles.
     constexpr std::uint64_t kTriangle = 9 * sizeof(float) + sizeof(ShadowNode) / 3;
-    return caster_count(scene) * kTriangle;
+    return triangle_count(scene) * kTriangle;
 }
 
 ShadowScene::ShadowScene(const Gpu& gpu, const Scene& scene, bool masks)
@@ -135,7 +126,7 @@ ShadowScene::ShadowScene(const Gpu& gpu, const Scene& scene, bool masks)
 void ShadowScene::build() {
     revision_ = scene_.revisions.surfaces();
     ++built_;
-    const std::uint64_t count = caster_count(scene_);
+    const std::uint64_t count = triangle_count(scene_);
     if (count > SHADOW_NUMBER) {
         throw Error(fmt::format("shadows: scene '{}' has {} triangles; at most {} can cast shadows",
                                 scene_.name, count, SHADOW_NUMBER));

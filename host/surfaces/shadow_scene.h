@@ -13,8 +13,9 @@ namespace kilolux {
 /// Bytes that a ShadowScene takes on the device, about.
 std::uint64_t shadow_scene_bytes(const Scene& scene);
 
-/// The shadow casters of a scene on the OpenCL device: all triangles but those of materials that
-/// blend, numbered along the scene's instances, and the hierarchy of their boxes.
+/// The shadow casters of a scene on the OpenCL device: all triangles, numbered along the scene's
+/// instances, and the hierarchy of the boxes of those that cast shadows: not of materials that
+/// blend.
 class ShadowScene {
  public:
     /// The scene must outlive this; its meshes must stay as many. `masks`: some material is cut by

@@ -39,7 +39,7 @@ SHARED_STRUCT(InstanceRow) {
     uint first_triangle;           // the id of the mesh's triangle 0 is this + 1
     uint mesh;
     uint is_similarity;  // 1: normal_from_object is a rotation, and turns tangents, too
-    uint first_caster;   // the mesh's triangle 0 among those that cast shadows
+    uint first_caster;   // the mesh's triangle 0 along the scene's instances
 };
 SHARED_ASSERT(instance_row_size, sizeof(InstanceRow) == 144);
 // Of an instance's row: 1, or -1 if it mirrors its mesh.
