@@ -21,8 +21,8 @@ GltfBuilder side_by_side() {
     nlohmann::json& nodes = file.root["nodes"];
     nodes[2]["matrix"][12] = 1.2;
     nodes[3]["translation"] = {0.0, 1.3, 0.0};
-    nodes[8]["translation"] = {1.2, 1.3, 0.0};
-    nodes[9]["translation"] = {2.4, 1.3, 0.0};
+    nodes[10]["translation"] = {1.2, 1.3, 0.0};
+    nodes[11]["translation"] = {2.4, 1.3, 0.0};
     file.root["materials"][0]["alphaCutoff"] = 0.1;
     file.root["materials"][0]["extensions"]["KHR_materials_emissive_strength"] = {
         {"emissiveStrength", 0.2}};
