@@ -84,6 +84,9 @@ SHARED_FN SheenLobe make_sheen_lobe(FV n_dot_v, FV roughness) {
     lobe.name = fma(fma(fma(fv(of_r3), r, fv(of_r2)), r, fv(of_r)), r,     \
                     fma(fma(fv(of_inverse2), inverse, fv(of_inverse)), inverse, fv(one)));
     SHEEN_ALBEDO_ROWS(MIX_ALBEDO)
+    // Functions take the lobe whole.
+    lobe.twice_half = lobe.exponent = lobe.scale = fv(0.0f);
+    lobe.shadow = lobe.albedo = lobe.slope = fv(0.0f);
     lobe.twice_half = fv(2.0f) * sheen_l(lobe, fv(0.5f));
     lobe.exponent = fv(0.5f) / alpha;
     lobe.scale = fv(0.0397887358f) * (fv(2.0f) + fv(1.0f) / alpha) / n_dot_v;
