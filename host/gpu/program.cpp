@@ -157,7 +157,7 @@ void ProgramCache::build_waiting() {
     while (const std::shared_ptr<ProgramBuild> next = next_waiting()) {
         try {
             next->program();
-        } catch (...) {  // whoever uses the program is told
+        } catch (...) {  // program() throws it again where the program is used
         }
     }
 }
