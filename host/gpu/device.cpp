@@ -163,7 +163,7 @@ cl::Device device_of(std::string_view choice) {
 cl::Device choose_device(std::string_view choice) {
     cl::Device device = device_of(choice);
     const std::string& missing = prepare_pocl();
-    if (!missing.empty() && describe(device).platform == "Portable Computing Language") {
+    if (!missing.empty() && describe(device).is_pocl()) {
         throw Error("OpenCL: " + describe(device).name + ": " + missing);
     }
     return device;

@@ -28,6 +28,9 @@ struct DeviceInfo {
     std::uint64_t cache_bytes = 0;  // of the largest cache that global memory has; 0: unknown
     std::uint64_t memory_bytes = 0;
     std::uint64_t max_allocation_bytes = 0;
+
+    bool is_pocl() const { return platform == "Portable Computing Language"; }
+    bool is_oclgrind() const { return platform == "Oclgrind"; }
 };
 
 DeviceInfo describe(const cl::Device& device);

@@ -49,7 +49,7 @@ Tuning default_tuning(const DeviceInfo& device) {
         tuning.shade_rows = std::max(group_of(8 * columns, device) / columns, 1);
         // With few lights, loading pixels takes longer than shading them. Oclgrind and rusticl's
         // SPIR-V translator do not know the prefetch instruction; the latter ends the process.
-        tuning.shade_prefetch = device.platform == "Portable Computing Language" ? 1 : 0;
+        tuning.shade_prefetch = device.is_pocl() ? 1 : 0;
         tuning.cull_chunks = 16 * device.compute_units;
         tuning.light_group = group_of(16, device);
         // Triangles are narrow: wider vectors are mostly empty. A tile of this size stays in the

@@ -82,7 +82,7 @@ constexpr std::size_t kMostBuilders = 4;
 }  // namespace
 
 bool takes_our_declarations(const DeviceInfo& device) {
-    return device.platform == "Portable Computing Language" && device.driver.starts_with("3.1");
+    return device.is_pocl() && device.driver.starts_with("3.1");
 }
 
 const cl::Program& ProgramBuild::program() {

@@ -55,7 +55,8 @@ Gpu device_for(const RenderSettings& settings, const Gpu& opened) {
 
 std::future<Gpu> open_device_async(const RenderSettings& settings) {
     return open_gpu_async(settings.device, [settings](const Gpu& opened) {
-        opened.programs->build_in_background();
+        // Oclgrind's compiler fails when several threads call it.
+        if (!opened.info.is_oclgrind()) opened.programs->build_in_background();
         const Gpu gpu = device_for(settings, opened);
         build_ahead(gpu, choose_tuning(gpu.info, settings.kernels).tuning);
     });

@@ -13,8 +13,7 @@ constexpr std::size_t kFirstWords = std::size_t{1} << 18;  // that there is room
 // In the work-group form PoCL 3.1 loses values across barriers and reads through wild pointers;
 // oclgrind finds no fault in it. A CPU would not gain by it.
 Tuning usable_for_shadows(Tuning tuning, const DeviceInfo& device) {
-    const bool is_pocl = device.platform == "Portable Computing Language";
-    if ((device.is_cpu || is_pocl) && device.platform != "Oclgrind") {
+    if ((device.is_cpu || device.is_pocl()) && !device.is_oclgrind()) {
         tuning.shadow_group = std::min(tuning.shadow_group, 1);
     }
     return tuning;

@@ -97,9 +97,9 @@ std::vector<std::string> lines_of(const std::string& file) {
 
 // What tests/opencl/oclgrind.cmake says of oclgrind's options holds here, too.
 Json oclgrind(const cl::Device& device, const Step& step) {
-    const char* why = describe(device).platform == "Oclgrind" ? "this device is oclgrind"
-                      : !has_program("oclgrind")              ? "not installed"
-                                                              : nullptr;
+    const char* why = describe(device).is_oclgrind() ? "this device is oclgrind"
+                      : !has_program("oclgrind")     ? "not installed"
+                                                     : nullptr;
     if (why != nullptr) return {{"passed", true}, {"ran", false}, {"why", why}};
     const TemporaryFolder scratch;
     const std::string log = scratch / "log", picture = scratch / "picture.exr";
