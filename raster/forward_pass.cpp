@@ -16,7 +16,8 @@ LightAccess light_access(const ForwardFeatures& features) {
     return features.light_access.value_or(faster_light_access());
 }
 
-ScenePass shaded_pass(const ForwardFeatures& features, bool blended) {
+ScenePass shaded_pass(ForwardFeatures features, bool blended) {
+    features.transmission &= blended;
     const bool textures = light_access(features) == LightAccess::texture;
     ScenePass pass{.fragment = "raster/shaders/forward.frag",
                    .defines = feature_macros(features),
@@ -126,7 +127,7 @@ void ForwardPass::draw_transparent(const Camera& camera, const CameraRow& row) {
     glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
-    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glBlendFunc(GL_ONE, GL_SRC1_COLOR);
     draw_in_parts(width, height, cost_, [&] { blended_.draw(draws, row); });
 }
 

@@ -9,7 +9,7 @@ constexpr GLint kDrawnInstance = 0;  // uniform of scene.glsl
 // Draws the far side of a surface that blends first.
 void draw_faces(const GpuScene& scene, std::size_t mesh) {
     const Material& material = scene.material_of_mesh(mesh);
-    if (material.double_sided && material.alpha_mode != AlphaMode::blend) {
+    if (material.double_sided && !is_blended(material)) {
         glDisable(GL_CULL_FACE);
         scene.draw(mesh);
         return;
@@ -58,7 +58,7 @@ ScenePrograms::ScenePrograms(const GpuScene& scene, const ScenePass& pass)
         features_.push_back(
             pass.coverage ? coverage_features(scene.scene(), mesh)
                           : mesh_features(scene.scene(), mesh, pass.uses, scene.anisotropy()));
-        const bool blends = scene.material_of_mesh(i).alpha_mode == AlphaMode::blend;
+        const bool blends = is_blended(scene.scene(), mesh);
         if (blends != pass.blended) continue;
         GlProgram& program = programs_[features_.back()];
         if (program) continue;

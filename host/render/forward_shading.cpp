@@ -8,7 +8,7 @@ namespace {
 
 ForwardFeatures forward_features(const ScenePlan& plan, bool clustered) {
     ForwardFeatures features;
-    static_cast<SceneFeatures&>(features) = plan.kernels;
+    static_cast<SceneFeatures&>(features) = plan.of_layers().kernels;
     features.shading = plan.kernels.shading;
     features.clustered = clustered;
     return features;

@@ -9,14 +9,16 @@ namespace kilolux {
 
 Layers::Layers(RenderContext& context)
     : context_(context),
+      plan_(context.plan.of_layers()),
       draw_list_(context.scene->scene()),
       bin_(context.resolving_gpu(), context.tuning),
       raster_(context.resolving_gpu(), context.tuning),
-      resolve_(context.resolving_gpu(), context.tuning, context.plan.kernels,
-               context.surface_features()),
-      blend_(context.resolving_gpu(), context.tuning, context.surface_features()) {
-    const KernelFeatures& features = context.plan.kernels;
-    const SurfaceFeatures surfaces = context.surface_features();
+      resolve_(context.resolving_gpu(), context.tuning, plan_.kernels,
+               context.surface_features(plan_)),
+      blend_(context.resolving_gpu(), context.tuning, plan_.kernels,
+             context.surface_features(plan_)) {
+    const KernelFeatures& features = plan_.kernels;
+    const SurfaceFeatures surfaces = context.surface_features(plan_);
     if (features.shadows) origins_.emplace(context.resolving_gpu(), context.tuning, features);
     if (context.settings.renderer == RendererKind::deferred) {
         lighting_.emplace(context.gpu, context.tuning, features, surfaces);
@@ -64,7 +66,7 @@ void Layers::draw(const Sample& sample, const LitBand& band, EnvironmentLight& e
         const DeviceArray<uint> ids = raster_.enqueue(scene, lists, out.timer);
         if (raster_.pixels() == 0) return;
         layer.surfaces = resolve_.enqueue(
-            ids, scene, make_gbuffer_layout(context_.plan.gbuffer, view.stride, view.height), view,
+            ids, scene, make_gbuffer_layout(plan_.gbuffer, view.stride, view.height), view,
             out.timer);
         if (origins_) {
             layer.shadows.origins = origins_->enqueue(
@@ -72,7 +74,7 @@ void Layers::draw(const Sample& sample, const LitBand& band, EnvironmentLight& e
         }
         layer.light = light(layer, out.timer);
         environment.enqueue(layer, out.timer);
-        blend_.enqueue(ids, scene, layer.light, band.light, out.timer);
+        blend_.enqueue(ids, scene, layer.surfaces, layer.light, band.light, out.timer);
     }
 }
 

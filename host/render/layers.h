@@ -36,6 +36,7 @@ class Layers {
     Radiance light(const LitBand& layer, StageTimer& timer);
 
     RenderContext& context_;
+    ScenePlan plan_;
     DrawList draw_list_;
     BinTriangles bin_;
     RasterLayers raster_;

@@ -54,14 +54,15 @@ const GpuScene& RenderContext::meshes() const {
                          chosen_anisotropy(settings, gpu.info));
 }
 
-SurfaceFeatures RenderContext::surface_features() const {
-    return kilolux::surface_features(scene->scene(), plan.gbuffer,
+SurfaceFeatures RenderContext::surface_features(const ScenePlan& part) const {
+    return kilolux::surface_features(scene->scene(), part.gbuffer,
                                      chosen_anisotropy(settings, gpu.info));
 }
 
 SurfaceScene& RenderContext::device_surfaces() {
     if (!surfaces) {
-        surfaces = std::make_shared<SurfaceScene>(gpu, tuning, scene->scene(), surface_features());
+        surfaces = std::make_shared<SurfaceScene>(gpu, tuning, scene->scene(),
+                                                  surface_features(plan.of_layers()));
     }
     return *surfaces;
 }

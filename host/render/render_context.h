@@ -56,8 +56,10 @@ struct RenderContext {
     /// The device with the lanes of kernels that resolve triangles.
     Gpu resolving_gpu() const;
 
-    /// The features that resolve_surfaces and shadow casters read of the scene's materials.
-    SurfaceFeatures surface_features() const;
+    /// The features that resolve_surfaces and shadow casters read of the scene's materials, for
+    /// opaque surfaces and for a part of the plan.
+    SurfaceFeatures surface_features() const { return surface_features(plan); }
+    SurfaceFeatures surface_features(const ScenePlan& part) const;
 };
 
 /// The plan for a scene with its own lights and the generated ones.

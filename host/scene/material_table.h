@@ -48,6 +48,10 @@ inline constexpr std::array<MaterialMap, USE_COUNT> kMaterialMaps = {{
      &Material::sheen_color_texture, true, "rgb", &SceneFeatures::sheen},
     {USE_SHEEN_ROUGHNESS, "extensions.KHR_materials_sheen.sheenRoughnessTexture",
      &Material::sheen_roughness_texture, false, "a", &SceneFeatures::sheen},
+    {USE_TRANSMISSION, "extensions.KHR_materials_transmission.transmissionTexture",
+     &Material::transmission_texture, false, "r", &SceneFeatures::transmission},
+    {USE_THICKNESS, "extensions.KHR_materials_volume.thicknessTexture",
+     &Material::thickness_texture, false, "g", &SceneFeatures::transmission},
 }};
 
 static_assert([] {
@@ -94,6 +98,13 @@ inline constexpr auto kMaterialFactors = std::to_array<MaterialFactor>({
      0},
     {"extensions.KHR_materials_sheen.sheenRoughnessFactor", &Material::sheen_roughness,
      &MaterialRow::sheen, 3},
+    {"extensions.KHR_materials_transmission.transmissionFactor", &Material::transmission,
+     &MaterialRow::transmission, 0},
+    {"extensions.KHR_materials_volume.thicknessFactor", &Material::thickness, &MaterialRow::volume,
+     3, FactorRange::positive},
+    {"extensions.KHR_materials_volume.attenuationDistance", &Material::attenuation_distance,
+     nullptr, 0, FactorRange::positive},
+    {"extensions.KHR_materials_volume.attenuationColor", &Material::attenuation_color, nullptr, 0},
 });
 
 /// The map by whose texture coordinates tangents are made: the first one in tangent space. Not
@@ -134,8 +145,6 @@ struct LeftOutExtension {
 };
 
 inline constexpr auto kLeftOutMaterialExtensions = std::to_array<LeftOutExtension>({
-    {"KHR_materials_transmission", "glass looks opaque"},
-    {"KHR_materials_volume", "thick glass does not tint light"},
     {"KHR_materials_volume_scatter", "no light scatters below surfaces"},
     {"KHR_materials_diffuse_transmission", "leaves and paper let no light through"},
     {"KHR_materials_dispersion", "glass shows no rainbow"},

@@ -228,8 +228,13 @@ std::size_t material_row(const Scene& scene, const Mesh& mesh) {
                                              : static_cast<std::size_t>(mesh.material);
 }
 
+bool is_blended(const Material& material) {
+    return material.alpha_mode == AlphaMode::blend || material.transmission > 0.0f;
+}
+
 bool is_blended(const Scene& scene, const Mesh& mesh) {
-    return material_of(scene, mesh).alpha_mode == AlphaMode::blend;
+    return std::ranges::any_of(looks_of(scene, mesh),
+                               [](const Material* look) { return is_blended(*look); });
 }
 
 bool has_blended_surfaces(const Scene& scene) {

@@ -81,6 +81,12 @@ struct Material {
     TextureUse sheen_color_texture;      // sRGB
     float sheen_roughness = 0.0f;        // perceptual
     TextureUse sheen_roughness_texture;  // linear; A
+    float transmission = 0.0f;           // KHR_materials_transmission
+    TextureUse transmission_texture;     // linear; R
+    float thickness = 0.0f;              // KHR_materials_volume [m], object space
+    TextureUse thickness_texture;        // linear; G
+    float attenuation_distance = std::numeric_limits<float>::infinity();  // [m]
+    glm::vec3 attenuation_color{1.0f};  // what is left of white light after that distance
     bool operator==(const Material&) const = default;
 };
 
@@ -252,10 +258,13 @@ std::vector<const Material*> looks_of(const Scene& scene, const Mesh& mesh);
 /// Its place where rows of the default material follow those of Scene::materials.
 std::size_t material_row(const Scene& scene, const Mesh& mesh);
 
-/// Such surfaces cast no shadow, and no kernel draws them.
+/// Whether what is behind its surfaces is seen through them: alphaMode BLEND, or transmission.
+bool is_blended(const Material& material);
+
+/// Such surfaces cast no shadow, and are drawn as layers over the others.
 bool is_blended(const Scene& scene, const Mesh& mesh);
 
-/// Whether any instance's material blends: OpenGL draws those over the lit picture.
+/// Whether any instance has such surfaces.
 bool has_blended_surfaces(const Scene& scene);
 
 }  // namespace kilolux

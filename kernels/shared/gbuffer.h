@@ -97,7 +97,15 @@ namespace kilolux {
 #define PLANE_SHEEN_B 37
 // full, optional: float, the sheen's perceptual roughness
 #define PLANE_SHEEN_ROUGHNESS 38
-#define PLANE_COUNT 39
+// all but full, layers only: uchar4, square roots of the tint, the transmission in the 4th
+#define PLANE_TRANSMISSION 39
+// full, layers only: float, the tint, linear Rec. 709
+#define PLANE_TINT_R 40
+#define PLANE_TINT_G 41
+#define PLANE_TINT_B 42
+// full, layers only: float
+#define PLANE_TRANSMISSION_F 43
+#define PLANE_COUNT 44
 #define PLANE_ABSENT 0xffffffffu
 
 // The values of a surface beside its position and normal, a row each.
@@ -106,22 +114,25 @@ namespace kilolux {
 //   decoded  its first plane of a decoded G-buffer
 //   plane    its first plane of the layout `full`
 //   value    the default, where `has` is 0
-#define SURFACE_VALUES(VECTOR, SCALAR)                                                        \
-    VECTOR(1, albedo, SURFACE_ALBEDO, PLANE_ALBEDO_R, 0.0f)        /* linear Rec. 709 */      \
-    SCALAR(1, roughness, SURFACE_ROUGHNESS, PLANE_ROUGHNESS, 1.0f) /* perceptual */           \
-    SCALAR(HAS_MATERIAL, metallic, SURFACE_METALLIC, PLANE_METALLIC, 0.0f)                    \
-    VECTOR(HAS_MATERIAL, emissive, SURFACE_EMISSIVE, PLANE_EMISSIVE_R, 0.0f) /* radiance */   \
-    SCALAR(HAS_OCCLUSION, occlusion, SURFACE_OCCLUSION, PLANE_OCCLUSION_F, 1.0f)              \
-    /* reflectance of the dielectric part head on, and at grazing angles */                   \
-    VECTOR(HAS_SPECULAR, specular, SURFACE_SPECULAR, PLANE_SPECULAR_R, DIELECTRIC_F0)         \
-    SCALAR(HAS_SPECULAR, specular_f90, SURFACE_SPECULAR_F90, PLANE_SPECULAR_F90, 1.0f)        \
-    /* KHR_materials_clearcoat */                                                             \
-    SCALAR(HAS_CLEARCOAT, coat, SURFACE_COAT, PLANE_COAT_F, 0.0f)                             \
-    SCALAR(HAS_CLEARCOAT, coat_roughness, SURFACE_COAT_ROUGHNESS, PLANE_COAT_ROUGHNESS, 1.0f) \
-    VECTOR(HAS_CLEARCOAT, coat_normal, SURFACE_COAT_NORMAL, PLANE_COAT_NORMAL_X, 0.0f)        \
-    /* KHR_materials_sheen */                                                                 \
-    VECTOR(HAS_SHEEN, sheen, SURFACE_SHEEN, PLANE_SHEEN_R, 0.0f)                              \
-    SCALAR(HAS_SHEEN, sheen_roughness, SURFACE_SHEEN_ROUGHNESS, PLANE_SHEEN_ROUGHNESS, 1.0f)
+#define SURFACE_VALUES(VECTOR, SCALAR)                                                            \
+    VECTOR(1, albedo, SURFACE_ALBEDO, PLANE_ALBEDO_R, 0.0f)        /* linear Rec. 709 */          \
+    SCALAR(1, roughness, SURFACE_ROUGHNESS, PLANE_ROUGHNESS, 1.0f) /* perceptual */               \
+    SCALAR(HAS_MATERIAL, metallic, SURFACE_METALLIC, PLANE_METALLIC, 0.0f)                        \
+    VECTOR(HAS_MATERIAL, emissive, SURFACE_EMISSIVE, PLANE_EMISSIVE_R, 0.0f) /* radiance */       \
+    SCALAR(HAS_OCCLUSION, occlusion, SURFACE_OCCLUSION, PLANE_OCCLUSION_F, 1.0f)                  \
+    /* reflectance of the dielectric part head on, and at grazing angles */                       \
+    VECTOR(HAS_SPECULAR, specular, SURFACE_SPECULAR, PLANE_SPECULAR_R, DIELECTRIC_F0)             \
+    SCALAR(HAS_SPECULAR, specular_f90, SURFACE_SPECULAR_F90, PLANE_SPECULAR_F90, 1.0f)            \
+    /* KHR_materials_clearcoat */                                                                 \
+    SCALAR(HAS_CLEARCOAT, coat, SURFACE_COAT, PLANE_COAT_F, 0.0f)                                 \
+    SCALAR(HAS_CLEARCOAT, coat_roughness, SURFACE_COAT_ROUGHNESS, PLANE_COAT_ROUGHNESS, 1.0f)     \
+    VECTOR(HAS_CLEARCOAT, coat_normal, SURFACE_COAT_NORMAL, PLANE_COAT_NORMAL_X, 0.0f)            \
+    /* KHR_materials_sheen */                                                                     \
+    VECTOR(HAS_SHEEN, sheen, SURFACE_SHEEN, PLANE_SHEEN_R, 0.0f)                                  \
+    SCALAR(HAS_SHEEN, sheen_roughness, SURFACE_SHEEN_ROUGHNESS, PLANE_SHEEN_ROUGHNESS, 1.0f)      \
+    /* KHR_materials_volume's transmittance of what lies below, and KHR_materials_transmission */ \
+    VECTOR(HAS_TRANSMISSION, tint, SURFACE_TINT, PLANE_TINT_R, 1.0f)                              \
+    SCALAR(HAS_TRANSMISSION, transmission, SURFACE_TRANSMISSION, PLANE_TRANSMISSION_F, 0.0f)
 // Reflectance of dielectrics at normal incidence (glTF 2.0, appendix B).
 #define DIELECTRIC_F0 0.04f
 
@@ -144,9 +155,9 @@ SHARED_STRUCT(GBufferLayout) {
     float emissive_scale;  // largest emissive value of the scene, > 0: PLANE_MATERIAL is relative
                            // to it
     uint bytes_per_pixel;
-    uint unused0, unused1;
+    uint unused0;
 };
-SHARED_ASSERT(gbuffer_layout_size, sizeof(GBufferLayout) == 176);
+SHARED_ASSERT(gbuffer_layout_size, sizeof(GBufferLayout) == 192);
 #endif
 
 // Octahedral coordinates in [-1, 1]^2 of a unit vector. Cigolle et al. 2014, "A Survey of Efficient

@@ -3,7 +3,7 @@
 //
 // Compile-time switches: SHADING, HAS_METALLIC, HAS_SPECULAR (KHR_materials_ior and
 // KHR_materials_specular), HAS_CLEARCOAT (KHR_materials_clearcoat), HAS_SHEEN
-// (KHR_materials_sheen), HAS_UNLIT. Features that the scene lacks are not compiled in; compiling
+// (KHR_materials_sheen), HAS_TRANSMISSION (KHR_materials_transmission), HAS_UNLIT. Features that the scene lacks are not compiled in; compiling
 // them in changes no bit of the radiance.
 #ifndef KILOLUX_SHARED_SURFACE_H
 #define KILOLUX_SHARED_SURFACE_H
@@ -32,6 +32,9 @@
 #endif
 #ifndef HAS_SHEEN
 #define HAS_SHEEN 0
+#endif
+#ifndef HAS_TRANSMISSION
+#define HAS_TRANSMISSION 0
 #endif
 // Whether the G-buffer may hold unlit surfaces: is_lit().
 #ifndef HAS_UNLIT

@@ -8,7 +8,8 @@
 //   prefetch_map(map, at)                   asks the caches for what a Lookup reads
 //
 // TEXTURE_USES has the bit 1 << USE_* of every texture that some material of the scene has and the
-// G-buffer keeps. HAS_SPECULAR, HAS_CLEARCOAT, HAS_SHEEN, HAS_UNLIT: see surface.h.
+// G-buffer keeps. HAS_SPECULAR, HAS_CLEARCOAT, HAS_SHEEN, HAS_TRANSMISSION, HAS_UNLIT: see
+// surface.h.
 // HAS_UNLIT_MATERIALS: some are unlit.
 #ifndef KILOLUX_SHARED_SURFACE_OF_H
 #define KILOLUX_SHARED_SURFACE_OF_H
@@ -124,6 +125,20 @@ SHARED_FN MASK passes_cutoff(MaterialRef material, FV alpha) {
     return lane_mask(!(alpha < fv(MATERIAL(material).row.emissive_cutoff.w)));
 }
 
+// The share of the fragments that covers what is behind them, from 0 to 1, by any alphaMode.
+SHARED_FN FV coverage_of(SurfaceScene scene, MaterialRef material, IN(Fragment) f) {
+    FV alpha = alpha_of(scene, material, f);
+#if HAS_TRANSMISSION
+    uint flags = MATERIAL(material).flags;
+    if ((flags & MATERIAL_MASKED) != 0u) {
+        alpha = lane_select(passes_cutoff(material, alpha), fv(1.0f), fv(0.0f));
+    } else if ((flags & MATERIAL_BLENDED) == 0u) {
+        alpha = fv(1.0f);
+    }
+#endif
+    return min(max(alpha, fv(0.0f)), fv(1.0f));
+}
+
 // The unit vector along v; +z, towards the viewer, where v has no direction.
 SHARED_FN FV3 unit_or_z(FV3 v) {
     FV square = dot3(v, v);
@@ -228,6 +243,25 @@ SHARED_FN Surface with_sheen(IN(Textures) textures, IN(Fragment) f, Surface s) {
 }
 #endif
 
+#if HAS_TRANSMISSION
+// KHR_materials_transmission and KHR_materials_volume: light goes the thickness straight through.
+SHARED_FN Surface with_transmission(IN(Textures) textures, IN(Fragment) f, Surface s) {
+    MaterialRef material = AT(textures).material;
+    s.transmission = fv(MATERIAL(material).row.transmission.x);
+#if HAS_USE(USE_TRANSMISSION)
+    s.transmission *= sample_use(textures, f, USE_TRANSMISSION).x;
+#endif
+    FV length = AT(f).scale * fv(MATERIAL(material).row.volume.w);
+#if HAS_USE(USE_THICKNESS)
+    length *= sample_use(textures, f, USE_THICKNESS).y;
+#endif
+    FV3 log2_of_1m = color_of(MATERIAL(material).row.volume);
+    s.tint = fv3(exp2_of_negative(log2_of_1m.x * length), exp2_of_negative(log2_of_1m.y * length),
+                 exp2_of_negative(log2_of_1m.z * length));
+    return s;
+}
+#endif
+
 // KHR_materials_unlit: the base colour leaves the surface, whatever the lights.
 SHARED_FN Surface with_unlit(MaterialRef material, Surface s) {
 #if HAS_UNLIT
@@ -239,6 +273,7 @@ SHARED_FN Surface with_unlit(MaterialRef material, Surface s) {
     s.metallic = fv(0.0f);
     s.coat = fv(0.0f);
     s.sheen = zero3();
+    s.transmission = fv(0.0f);
 #if HAS_UNLIT
     s.roughness = fv(UNLIT_ROUGHNESS);
 #else
@@ -283,6 +318,9 @@ SHARED_FN Surface surface_of_material(IN(Textures) textures, IN(Fragment) f) {
 #endif
 #if HAS_SHEEN
     s = with_sheen(textures, f, s);
+#endif
+#if HAS_TRANSMISSION
+    s = with_transmission(textures, f, s);
 #endif
 #if HAS_UNLIT || HAS_UNLIT_MATERIALS
     s = with_unlit(material, s);

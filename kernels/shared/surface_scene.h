@@ -54,7 +54,8 @@ SHARED_ASSERT(instance_row_size, sizeof(InstanceRow) == 144);
 SHARED_ASSERT(uses_have_bits, USE_COUNT <= USES_MAX);
 #define MATERIAL_DOUBLE_SIDED (1u << 16)
 #define MATERIAL_UNLIT (1u << 17)
-#define MATERIAL_MASKED (1u << 18)  // cut by its alpha
+#define MATERIAL_MASKED (1u << 18)   // cut by its alpha
+#define MATERIAL_BLENDED (1u << 19)  // alphaMode BLEND
 
 SHARED_STRUCT(SurfaceMaterial) {
     MaterialRow row;

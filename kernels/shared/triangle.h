@@ -20,7 +20,8 @@
 //   vertex_float(vertex, place), and of 2, 3 and 4 floats
 //   Pixels                                 x, y: centres [pixel]
 //
-// Compile-time switches: HAS_TEXCOORD0, HAS_TEXCOORD1, HAS_VERTEX_COLOR, HAS_TANGENT.
+// Compile-time switches: HAS_TEXCOORD0, HAS_TEXCOORD1, HAS_VERTEX_COLOR, HAS_TANGENT,
+// HAS_TRANSMISSION.
 #ifndef KILOLUX_SHARED_TRIANGLE_H
 #define KILOLUX_SHARED_TRIANGLE_H
 #include "kernels/shared/surface_scene.h"
@@ -31,6 +32,9 @@
 SHARED_PLAIN_STRUCT(Fragment) {
     FV z;        // [m]
     FV3 normal;  // interpolated between unit vectors
+#if HAS_TRANSMISSION
+    FV scale;  // of lengths, from object space to metres
+#endif
     MASK front;  // the side that the triangle winds counter-clockwise
     UV material;
 #if HAS_TANGENT
@@ -86,6 +90,16 @@ SHARED_FN float3 turned_normal(InstanceRef instance, float3 v) {
     return rows_times(INSTANCE(instance).normal_from_object[0],
                       INSTANCE(instance).normal_from_object[1],
                       INSTANCE(instance).normal_from_object[2], v);
+}
+
+// The root mean square of the instance's scales along three perpendicular directions.
+SHARED_FN float length_scale(InstanceRef instance) {
+    float sum = 0.0f;
+    for (uint i = 0u; i < 3u; ++i) {
+        float4 row = INSTANCE(instance).view_from_object[i];
+        sum += row_times(row, make_float3(row.x, row.y, row.z));
+    }
+    return sqrt(sum / 3.0f);
 }
 
 SHARED_FN float3 turned_vector(InstanceRef instance, float3 v) {
@@ -290,6 +304,9 @@ SHARED_FN void interpolate_triangle(View view, Pixels pixels, Triangle t, MASK m
     AT(f).z = lane_select(mask, interpolate(w, -v[0].z, -v[1].z, -v[2].z), AT(f).z);
     AT(f).normal = select3(mask, interpolate_normal(w, t), AT(f).normal);
     AT(f).material = lane_select_uint(mask, lane_uint(t.mesh.material), AT(f).material);
+#if HAS_TRANSMISSION
+    AT(f).scale = lane_select(mask, fv(length_scale(t.instance)), AT(f).scale);
+#endif
 #if HAS_TANGENT
     FV3 tangent = fv3(fv(0.0f), fv(0.0f), fv(0.0f));
     FV handedness = fv(0.0f);
@@ -324,6 +341,9 @@ SHARED_FN Fragment no_fragment() {
     f.z = fv(1.0f);
     f.normal = fv3(fv(0.0f), fv(0.0f), fv(1.0f));
     f.material = lane_uint(0u);
+#if HAS_TRANSMISSION
+    f.scale = fv(1.0f);
+#endif
 #if HAS_TANGENT
     f.tangent = f.normal;
     f.handedness = fv(0.0f);

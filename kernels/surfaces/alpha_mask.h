@@ -45,9 +45,8 @@ static inline MaskedTriangle fetch_masked_triangle(SurfaceScene scene, View view
     return masked;
 }
 
-// The material's alpha at pixels, whether the triangle covers them or not.
-static inline FV material_alpha(SurfaceScene scene, View view, const MaskedTriangle* t,
-                                Pixels pixels) {
+// What alpha reads of the fragments at pixels, whether the triangle covers them or not.
+static inline Fragment alpha_fragment(View view, const MaskedTriangle* t, Pixels pixels) {
     Weights w = weights_of(view, pixels, t->edges);
     Fragment f;
 #if HAS_TEXCOORD0
@@ -59,12 +58,20 @@ static inline FV material_alpha(SurfaceScene scene, View view, const MaskedTrian
 #if HAS_VERTEX_COLOR
     f.color.w = interpolate(w, t->alpha[0], t->alpha[1], t->alpha[2]);
 #endif
-    return alpha_of(scene, t->material, &f);
+    return f;
 }
 
-// The pixels that alpha keeps, likewise.
+// The share of the pixels that the material covers.
+static inline FV material_coverage(SurfaceScene scene, View view, const MaskedTriangle* t,
+                                   Pixels pixels) {
+    Fragment f = alpha_fragment(view, t, pixels);
+    return coverage_of(scene, t->material, &f);
+}
+
+// The pixels that an alpha mask keeps.
 static inline MASK passes_mask(SurfaceScene scene, View view, const MaskedTriangle* t,
                                Pixels pixels) {
-    return passes_cutoff(t->material, material_alpha(scene, view, t, pixels));
+    Fragment f = alpha_fragment(view, t, pixels);
+    return passes_cutoff(t->material, alpha_of(scene, t->material, &f));
 }
 #endif

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lays a lit layer over the light behind it: alpha * layer + (1 - alpha) * behind, alpha as
-// alphaMode BLEND has it, limited to 0 to 1. Alpha 0 and 1 keep the bits of one of the two. One
-// work-item has VW neighbours of a row.
+// Lays a lit layer over the light behind it: alpha * layer + (1 - alpha + alpha * t) * behind, with
+// the alpha of the material and what the surface transmits, t. Alpha 0, and 1 without t, keep the
+// bits of one of the two. One work-item has VW neighbours of a row.
 #include "kernels/device/arguments.h"
+#include "kernels/device/gbuffer.h"
 #include "kernels/device/radiance.h"
 #include "kernels/surfaces/alpha_mask.h"
 
@@ -12,21 +13,30 @@ static inline FV alpha_of_layer(SurfaceScene scene, View view, Pixels pixels, UV
         uint id = first_of(ids, left);
         MASK mask = lane_mask(ids == (UV)(id)) & shown;
         MaskedTriangle t = fetch_masked_triangle(scene, view, id - 1u);
-        FV own = material_alpha(scene, view, &t, pixels);
-        alpha = lane_select(mask, min(max(own, fv(0.0f)), fv(1.0f)), alpha);
+        alpha = lane_select(mask, material_coverage(scene, view, &t, pixels), alpha);
         left &= ~mask;
     }
     return alpha;
 }
 
-// Where alpha is 0 or 1 the other light counts for nothing, infinite or not.
-static inline FV blended(FV alpha, FV layer, FV behind) {
-    FV mixed = fma(alpha, layer, (fv(1.0f) - alpha) * behind);
-    mixed = lane_select(lane_mask(alpha == fv(0.0f)), behind, mixed);
-    return lane_select(lane_mask(alpha == fv(1.0f)), layer, mixed);
+// Light of no share counts for nothing, infinite or not.
+static inline FV blended(FV alpha, FV layer, FV share, FV behind) {
+    FV seen = lane_select(lane_mask(share == fv(0.0f)), fv(0.0f), share * behind);
+    return lane_select(lane_mask(alpha == fv(0.0f)), behind, fma(alpha, layer, seen));
 }
 
-kernel void blend_layer(View view, SCENE_ARGS,
+// The share of the light behind that reaches the eye.
+static inline FV3 share_of_behind(GBuffer g, Pixels pixels, FV alpha) {
+#if HAS_TRANSMISSION
+    Surface s = load_surface(g, pixels, load_depth01(g, pixels));
+    return share_behind(s, make_shading_point(s, g.view.orthographic != 0u), alpha);
+#else
+    FV bare = fv(1.0f) - alpha;
+    return fv3(bare, bare, bare);
+#endif
+}
+
+kernel void blend_layer(GBUFFER_ARGS, SCENE_ARGS,
                         global const uint* restrict ids,  // [height][stride]: triangle + 1; 0: none
                         global const float* restrict layer,  // [3][height][stride]
                         global float* restrict radiance) {   // in, out [3][height][stride]
@@ -40,7 +50,9 @@ kernel void blend_layer(View view, SCENE_ARGS,
     FV alpha = alpha_of_layer(scene, view, pixels, id, shown);
     FV3 over = load_radiance(layer, view, pixels);
     FV3 behind = load_radiance(radiance, view, pixels);
-    FV3 mixed = fv3(blended(alpha, over.x, behind.x), blended(alpha, over.y, behind.y),
-                    blended(alpha, over.z, behind.z));
+    FV3 share = share_of_behind((GBuffer){gbuffer, layout, view, srgb}, pixels, alpha);
+    FV3 mixed =
+        fv3(blended(alpha, over.x, share.x, behind.x), blended(alpha, over.y, share.y, behind.y),
+            blended(alpha, over.z, share.z, behind.z));
     store_radiance(radiance, view, pixels, select3(shown, mixed, behind));
 }

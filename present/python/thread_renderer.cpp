@@ -233,7 +233,7 @@ ReferencePicture ThreadRenderer::reference() {
         }
         ReferenceOptions model = reference_options(renderer, pictures_->camera());
         model.progress = [this](double) { check(*running_); };
-        return shade_reference(renderer.lit_surfaces(), model);
+        return picture_reference(renderer, pictures_->camera(), model);
     });
 }
 

@@ -1,8 +1,9 @@
 #version 450 core
 // SPDX-License-Identifier: Apache-2.0
 // A fragment lit where it is drawn: by every light, or with CLUSTERED by the lights of its coarse
-// cluster. SHADING, HAS_SPOT_LIGHTS, HAS_METALLIC, HAS_SPECULAR, HAS_CLEARCOAT, HAS_SHEEN, HAS_UNLIT,
-// HAS_LIGHT_PROFILES as in evaluate.h; HAS_DIRECTIONAL_LIGHTS. BLENDED: the material lets light through.
+// cluster. SHADING, HAS_SPOT_LIGHTS, HAS_METALLIC, HAS_SPECULAR, HAS_CLEARCOAT, HAS_SHEEN,
+// HAS_TRANSMISSION, HAS_UNLIT, HAS_LIGHT_PROFILES as in evaluate.h; HAS_DIRECTIONAL_LIGHTS. BLENDED: the
+// material lets light through.
 #include "raster/shaders/surface.glsl"
 #include "kernels/shared/evaluate.h"
 
@@ -59,7 +60,10 @@ float profile_value(LightProfiles from, uint i) { return profile_tables[i]; }
 float profile_head(LightProfiles from, uint i) { return profile_value(from, i); }
 #endif
 
-layout(location = 0) precise out vec4 out_radiance;  // linear; alpha for materials that blend
+layout(location = 0, index = 0) precise out vec4 out_radiance;  // linear
+#if BLENDED
+layout(location = 0, index = 1) precise out vec4 out_behind;  // the share of the light behind
+#endif
 
 // First and end of the fragment's lights in light_lists, or in lights.
 uvec2 light_range(float z) {
@@ -106,9 +110,10 @@ void main() {
     sum = sum_lights(sum, p, light_range(f.z));
     FV3 radiance = finish_shading(s, p, sum, frame.ambient);
 #if BLENDED
-    float alpha = alpha_of(scene, f.material, f);
-#else
-    float alpha = 1.0;
+    float alpha = coverage_of(scene, f.material, f);
+    FV3 behind = share_behind(s, p, alpha);
+    out_behind = vec4(behind.x, behind.y, behind.z, 0.0);
+    radiance = alpha > 0.0 ? scale3(radiance, alpha) : zero3();
 #endif
-    out_radiance = vec4(radiance.x, radiance.y, radiance.z, alpha);
+    out_radiance = vec4(radiance.x, radiance.y, radiance.z, 1.0);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/measure/reference/decoded_samples.h"
 
+#include "host/measure/reference/ray_cast_reference.h"
+
 #include "kernels/shared/gbuffer.h"
 
 namespace kilolux {
@@ -57,6 +59,16 @@ ReferenceOptions reference_options(const Renderer& renderer, const Camera& camer
 ReferencePicture shade_reference(const LitSurfaces& lit, const ReferenceOptions& options) {
     return shade_reference(surface_samples(lit.surfaces),
                            reference_lights(lit.lights, lit.directional, lit.webs), options);
+}
+
+ReferencePicture picture_reference(Renderer& renderer, const Camera& camera,
+                                   const ReferenceOptions& options) {
+    const LitSurfaces lit = renderer.lit_surfaces();
+    if (!has_blended_surfaces(renderer.scene())) return shade_reference(lit, options);
+    const RenderSettings& settings = renderer.settings();
+    return shade_reference(
+        RayCaster(renderer.scene()).cast_layers(camera, settings.width, settings.height),
+        reference_lights(lit.lights, lit.directional, lit.webs), options);
 }
 
 }  // namespace kilolux

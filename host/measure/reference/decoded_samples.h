@@ -31,4 +31,9 @@ ReferenceOptions reference_options(const Renderer& renderer, const Camera& camer
 /// The reference of what a renderer shaded: its stored surfaces and float32 lights.
 ReferencePicture shade_reference(const LitSurfaces& lit, const ReferenceOptions& options);
 
+/// The reference of a renderer's last picture, by `camera`: of its stored surfaces, or where some
+/// blend, of those that rays hit.
+ReferencePicture picture_reference(Renderer& renderer, const Camera& camera,
+                                   const ReferenceOptions& options);
+
 }  // namespace kilolux

@@ -26,7 +26,7 @@ ReferencePicture reference_of(Renderer& renderer, const Camera& camera,
                               const OnProgress& progress) {
     ReferenceOptions options = reference_options(renderer, camera);
     options.progress = progress;
-    return shade_reference(renderer.lit_surfaces(), options);
+    return picture_reference(renderer, camera, options);
 }
 
 ReferenceError error_of(const RgbImage& picture, const ReferencePicture& reference) {

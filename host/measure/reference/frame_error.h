@@ -22,7 +22,7 @@ struct ReferenceError {
     double flip_max = 0.0;
 };
 
-/// A picture's errors against float64.
+/// A picture's errors against float64. Where surfaces blend both references are of cast rays.
 struct FrameError {
     int width = 0;   // at which it was measured [pixel]
     int height = 0;  // [pixel]

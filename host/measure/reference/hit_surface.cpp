@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/measure/reference/hit_surface.h"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "host/scene/material_table.h"
@@ -146,6 +148,18 @@ void set_sheen(const SurfaceHit& hit, const Footprints& uv, SurfaceSample& out) 
     out.sheen_roughness = m.sheen_roughness * texel(hit, USE_SHEEN_ROUGHNESS, uv).w;
 }
 
+// The path's length is the thickness, in the instance's root mean square scale.
+void set_transmission(const SurfaceHit& hit, const Footprints& uv, SurfaceSample& out) {
+    const Material& m = material_of(hit);
+    out.transmission = m.transmission * texel(hit, USE_TRANSMISSION, uv).x;
+    const glm::dmat3 turn(instance_of(hit).world_from_object);
+    const double squares =
+        glm::dot(turn[0], turn[0]) + glm::dot(turn[1], turn[1]) + glm::dot(turn[2], turn[2]);
+    const double length = m.thickness * texel(hit, USE_THICKNESS, uv).y * std::sqrt(squares / 3.0);
+    const glm::dvec3 color = glm::max(glm::dvec3(m.attenuation_color), 1e-30);
+    out.tint = glm::pow(color, glm::dvec3(length / double{m.attenuation_distance}));
+}
+
 void set_reflectance(const SurfaceHit& hit, const Footprints& uv, SurfaceSample& out) {
     const Material& m = material_of(hit);
     const double root = (double{m.ior} - 1.0) / (double{m.ior} + 1.0);
@@ -161,6 +175,7 @@ void apply_unlit(SurfaceSample& surface) {
     surface.albedo = glm::dvec3(0.0);
     surface.coat = 0.0;
     surface.sheen = glm::dvec3(0.0);
+    surface.transmission = 0.0;
 }
 
 }  // namespace
@@ -176,6 +191,14 @@ bool front_facing(const SurfaceHit& hit) {
 }
 
 glm::dvec4 base_color_at(const SurfaceHit& hit) { return base_color(hit, footprints(hit)); }
+
+double coverage_at(const SurfaceHit& hit) {
+    const Material& material = material_of(hit);
+    if (material.alpha_mode == AlphaMode::opaque) return 1.0;
+    const double alpha = base_color_at(hit).w;
+    if (material.alpha_mode == AlphaMode::blend) return std::clamp(alpha, 0.0, 1.0);
+    return alpha >= double{material.alpha_cutoff} ? 1.0 : 0.0;
+}
 
 SurfaceSample surface_at(const SurfaceHit& hit) {
     const Material& material = material_of(hit);
@@ -193,6 +216,9 @@ SurfaceSample surface_at(const SurfaceHit& hit) {
     set_reflectance(hit, uv, out);
     set_coat(hit, uv, out);
     set_sheen(hit, uv, out);
+    set_transmission(hit, uv, out);
+    out.blended = is_blended(material);
+    out.coverage = coverage_at(hit);
     if (material.unlit) apply_unlit(out);
     return out;
 }

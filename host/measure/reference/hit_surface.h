@@ -27,6 +27,9 @@ bool front_facing(const SurfaceHit& hit);
 /// Base colour and alpha: factor times texture times vertex colour.
 glm::dvec4 base_color_at(const SurfaceHit& hit);
 
+/// The share that covers what is behind: 0 or 1 but for AlphaMode::blend.
+double coverage_at(const SurfaceHit& hit);
+
 /// All attributes at the hit. The normal is in world space and faces the ray; the position stays 0.
 SurfaceSample surface_at(const SurfaceHit& hit);
 

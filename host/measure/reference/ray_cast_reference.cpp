@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/measure/reference/ray_cast_reference.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
 #include "host/measure/reference/camera_rays.h"
 #include "host/measure/reference/hit_surface.h"
 
@@ -17,19 +22,18 @@ PixelRay to_world(const PixelRay& view, const Camera& camera) {
             .direction_dy = m * view.direction_dy};
 }
 
-// Whether the ray ends there: the side is drawn, and the surface is opaque there.
-bool stops(const SurfaceHit& hit) {
-    const Material& material = material_of(hit);
-    if (!material.double_sided && !front_facing(hit)) return false;
-    switch (material.alpha_mode) {
-        case AlphaMode::mask:
-            return base_color_at(hit).w >= material.alpha_cutoff;
-        case AlphaMode::blend:
-            return false;
-        case AlphaMode::opaque:
-            break;
+bool is_drawn(const SurfaceHit& hit) { return material_of(hit).double_sided || front_facing(hit); }
+
+SurfaceSample sample_at(const SurfaceHit& hit, const PixelRay& view_ray, const Camera& camera) {
+    SurfaceSample out = surface_at(hit);
+    out.instance = hit.triangle.instance;
+    out.triangle = hit.triangle.triangle;
+    out.position = view_ray.origin + hit.hit.t * view_ray.direction;
+    const glm::dmat3 view_from_world = glm::transpose(camera.world_from_view);
+    for (glm::dvec3* n : {&out.normal, &out.coat_normal}) {
+        *n = *n != glm::dvec3(0.0) ? view_from_world * *n : glm::dvec3(0.0, 0.0, 1.0);
     }
-    return true;
+    return out;
 }
 
 }  // namespace
@@ -37,30 +41,51 @@ bool stops(const SurfaceHit& hit) {
 RayCaster::RayCaster(const Scene& scene)
     : scene_(scene), bvh_(world_triangles(scene)), textures_(scene) {}
 
-SurfaceSamples RayCaster::cast(const Camera& camera, int width, int height,
-                               const OnProgress& progress) const {
-    SurfaceSamples out = make_surface_samples(width, height);
-    const glm::dmat3 view_from_world = glm::transpose(camera.world_from_view);
+SurfaceHit RayCaster::hit_of(const RayHit& hit, const PixelRay& ray) const {
+    return {scene_, textures_, bvh_.triangles()[hit.index], hit, ray};
+}
+
+// The opaque surface, if there is one: a `t` of infinity says that there is none; and those in
+// front of it that blend, from far to near.
+std::vector<RayHit> RayCaster::surfaces_along(const PixelRay& ray, const Camera& camera) const {
+    std::vector<RayHit> out(1);
+    out[0].t = std::numeric_limits<double>::infinity();
+    const auto stops = [&](const RayHit& candidate) {
+        const SurfaceHit hit = hit_of(candidate, ray);
+        if (!is_drawn(hit)) return false;
+        if (is_blended(material_of(hit))) {
+            out.push_back(candidate);
+            return false;
+        }
+        return coverage_at(hit) > 0.0;
+    };
+    const auto opaque = bvh_.nearest({.origin = ray.origin,
+                                      .direction = ray.direction,
+                                      .t_min = camera.z_near,
+                                      .t_max = camera.z_far},
+                                     stops);
+    if (opaque) out[0] = *opaque;
+    std::erase_if(out, [&](const RayHit& hit) { return hit.t > out[0].t; });
+    std::ranges::sort(out, [](const RayHit& a, const RayHit& b) {
+        return std::pair(a.t, a.index) > std::pair(b.t, b.index);
+    });
+    return out;
+}
+
+std::vector<SurfaceSamples> RayCaster::cast_layers(const Camera& camera, int width, int height,
+                                                   const OnProgress& progress) const {
+    std::vector<SurfaceSamples> out(1, make_surface_samples(width, height));
+    std::mutex grows;
     const auto cast_pixel = [&](int x, int y) {
         const PixelRay view_ray = pixel_ray(camera, width, height, x, y);
         const PixelRay ray = to_world(view_ray, camera);
-        const auto hit_of = [&](const RayHit& hit) {
-            return SurfaceHit{scene_, textures_, bvh_.triangles()[hit.index], hit, ray};
-        };
-        const auto hit =
-            bvh_.nearest({.origin = ray.origin,
-                          .direction = ray.direction,
-                          .t_min = camera.z_near,
-                          .t_max = camera.z_far},
-                         [&](const RayHit& candidate) { return stops(hit_of(candidate)); });
-        if (!hit) return;
-        SurfaceSample& sample = out.at(x, y);
-        sample = surface_at(hit_of(*hit));
-        sample.instance = bvh_.triangles()[hit->index].instance;
-        sample.triangle = bvh_.triangles()[hit->index].triangle;
-        sample.position = view_ray.origin + hit->t * view_ray.direction;
-        for (glm::dvec3* n : {&sample.normal, &sample.coat_normal}) {
-            *n = *n != glm::dvec3(0.0) ? view_from_world * *n : glm::dvec3(0.0, 0.0, 1.0);
+        const std::vector<RayHit> hits = surfaces_along(ray, camera);
+        for (std::size_t i = 0; i < hits.size(); ++i) {
+            if (std::isinf(hits[i].t)) continue;
+            const SurfaceSample sample = sample_at(hit_of(hits[i], ray), view_ray, camera);
+            const std::scoped_lock lock(grows);
+            if (i == out.size()) out.push_back(make_surface_samples(width, height));
+            out[i].at(x, y) = sample;
         }
     };
     const auto cast_row = [&](int y) {

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "host/measure/metrics/parallel_rows.h"
 #include "host/measure/reference/bvh.h"
+#include "host/measure/reference/hit_surface.h"
 #include "host/measure/reference/surface_samples.h"
 #include "host/measure/reference/texture_sampler.h"
 #include "host/scene/camera.h"
@@ -21,8 +25,8 @@ namespace kilolux {
 /// * Normal maps: MikkTSpace's basis, interpolated and not normalised, bitangent = cross(normal,
 ///   tangent) * handedness, mirrored with the object. Without tangents the map is not applied.
 /// * Textures: see TextureSampler; derivatives are those at the pixel's centre (Igehy 1999).
-/// * Alpha masks use the same filtered sample. Surfaces of AlphaMode::blend are left out, as in a
-///   G-buffer. Hits nearer than z_near or farther than z_far are left out.
+/// * Alpha masks use the same filtered sample. Hits nearer than z_near or farther than z_far are
+///   left out.
 /// * KHR_materials_unlit: emissive is the base colour.
 class RayCaster {
  public:
@@ -30,11 +34,21 @@ class RayCaster {
     explicit RayCaster(const Scene& scene);
 
     /// Casts width * height rays, on all cores. Positions and normals are in the camera's view
-    /// space.
+    /// space. Surfaces that blend are left out, as in a G-buffer.
     SurfaceSamples cast(const Camera& camera, int width, int height,
-                        const OnProgress& progress = {}) const;
+                        const OnProgress& progress = {}) const {
+        return std::move(cast_layers(camera, width, height, progress).front());
+    }
+
+    /// The same, and each pixel's surfaces that blend over it, from far to near. Of surfaces of one
+    /// depth those drawn first are nearer.
+    std::vector<SurfaceSamples> cast_layers(const Camera& camera, int width, int height,
+                                            const OnProgress& progress = {}) const;
 
  private:
+    SurfaceHit hit_of(const RayHit& hit, const PixelRay& ray) const;
+    std::vector<RayHit> surfaces_along(const PixelRay& ray, const Camera& camera) const;
+
     const Scene& scene_;
     Bvh bvh_;
     TextureSampler textures_;

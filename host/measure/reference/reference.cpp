@@ -59,7 +59,8 @@ Pixel shade(const SurfaceSample& surface, const ReferenceLights& lights,
     pixel.radiance.add(below * options.ambient * surface.occlusion *
                        reference_ambient_albedo(surface, to_eye, options.shading));
     std::optional<ShadowPoint> point;  // none: it sees every light
-    if (options.shadows != nullptr) point = options.shadows->point_at(surface.position);
+    if (options.shadows != nullptr)
+        point = options.shadows->point_at(surface.position, surface.blended);
     for (const ReferenceDirectionalLight& light : lights.directional) {
         add_incident(pixel, surface, light.to_light, light.illuminance, options, [&] {
             return !point || options.shadows->sees_direction(*point, light.to_light);
@@ -80,7 +81,31 @@ void store(RgbImage& image, std::size_t i, const glm::dvec3& value) {
     for (int c = 0; c < 3; ++c) image.rgb[3 * i + static_cast<std::size_t>(c)] = value[c];
 }
 
+glm::dvec3 value_at(const RgbImage& image, std::size_t i) {
+    return {image.rgb[3 * i], image.rgb[3 * i + 1], image.rgb[3 * i + 2]};
+}
+
 }  // namespace
+
+ReferencePicture shade_reference(const std::vector<SurfaceSamples>& layers,
+                                 const ReferenceLights& lights, const ReferenceOptions& options) {
+    ReferencePicture out = shade_reference(layers.front(), lights, options);
+    for (std::size_t k = 1; k < layers.size(); ++k) {
+        const ReferencePicture over = shade_reference(layers[k], lights, options);
+        for (std::size_t i = 0; i < layers[k].pixels.size(); ++i) {
+            const SurfaceSample& surface = layers[k].pixels[i];
+            if (surface.kind == SurfaceKind::background) continue;
+            const glm::dvec3 share = reference_share_behind(
+                surface, direction_to_eye(surface.position, options.orthographic), options.shading);
+            for (const auto image : {&ReferencePicture::radiance, &ReferencePicture::scale}) {
+                store(
+                    out.*image, i,
+                    surface.coverage * value_at(over.*image, i) + share * value_at(out.*image, i));
+            }
+        }
+    }
+    return out;
+}
 
 ReferencePicture shade_reference(const SurfaceSamples& surfaces, const ReferenceLights& lights,
                                  const ReferenceOptions& options) {

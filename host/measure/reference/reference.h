@@ -60,4 +60,10 @@ struct ReferencePicture {
 ReferencePicture shade_reference(const SurfaceSamples& surfaces, const ReferenceLights& lights,
                                  const ReferenceOptions& options);
 
+/// The same with surfaces that blend over the first ones, from far to near: of each, the share that
+/// it covers of its own radiance, and what it lets through of the radiance behind. Counts of lights
+/// are those of the first surfaces.
+ReferencePicture shade_reference(const std::vector<SurfaceSamples>& layers,
+                                 const ReferenceLights& lights, const ReferenceOptions& options);
+
 }  // namespace kilolux

@@ -21,7 +21,8 @@ double alpha2_of(double roughness) {
 }
 
 glm::dvec3 diffuse_of(const SurfaceSample& surface) {
-    return surface.albedo * ((1.0 - surface.metallic) / std::numbers::pi);
+    return surface.albedo *
+           ((1.0 - surface.metallic) * (1.0 - surface.transmission) / std::numbers::pi);
 }
 
 glm::dvec3 f0_of(const SurfaceSample& surface) {
@@ -36,6 +37,11 @@ glm::dvec3 diffuse_loss(const SurfaceSample& s, double schlick) {
     // 1 - F of the dielectric at grazing angles, relative to that at normal incidence.
     const double grazing = std::min((1.0 - s.specular_f90) / std::max(1.0 - most, 1e-6), 1.0);
     return 1.0 - (1.0 - head_on) * (1.0 - schlick + schlick * grazing);
+}
+
+// The share of the base that lets light through.
+double transmitting(const SurfaceSample& s, Shading model) {
+    return s.transmission * (model == Shading::lambert ? 1.0 : 1.0 - s.metallic);
 }
 
 glm::dvec3 half_vector(const glm::dvec3& to_eye, const glm::dvec3& to_light) {
@@ -102,7 +108,7 @@ glm::dvec3 reference_brdf(const SurfaceSample& surface, const glm::dvec3& to_eye
         case Shading::pbr:
             return pbr(surface, to_eye, to_light);
         default:
-            return surface.albedo / std::numbers::pi;
+            return surface.albedo * ((1.0 - surface.transmission) / std::numbers::pi);
     }
 }
 
@@ -114,10 +120,24 @@ double reference_coat_share(const SurfaceSample& surface, const glm::dvec3& to_e
 
 glm::dvec3 reference_ambient_albedo(const SurfaceSample& s, const glm::dvec3& to_eye,
                                     Shading model) {
-    if (model != Shading::pbr) return s.albedo;
+    const glm::dvec3 albedo = s.albedo * (1.0 - transmitting(s, model));
+    if (model != Shading::pbr) return albedo;
     const double n_dot_v = std::max(glm::dot(s.normal, to_eye), kNDotVMin);
     const double taken = reference_sheen_albedo(n_dot_v, s.sheen_roughness);
-    return s.albedo * (1.0 - std::max({s.sheen.x, s.sheen.y, s.sheen.z}) * taken) + s.sheen * taken;
+    return albedo * (1.0 - std::max({s.sheen.x, s.sheen.y, s.sheen.z}) * taken) + s.sheen * taken;
+}
+
+glm::dvec3 reference_share_behind(const SurfaceSample& s, const glm::dvec3& to_eye, Shading model) {
+    glm::dvec3 through = s.albedo * s.tint * transmitting(s, model);
+    if (model == Shading::pbr) {
+        const double n_dot_v = std::max(glm::dot(s.normal, to_eye), kNDotVMin);
+        const double schlick = std::pow(std::max(1.0 - n_dot_v, 0.0), 5.0);
+        const double taken = reference_sheen_albedo(n_dot_v, s.sheen_roughness);
+        through *= 1.0 - diffuse_loss(s, schlick);
+        through *= 1.0 - std::max({s.sheen.x, s.sheen.y, s.sheen.z}) * taken;
+        through *= 1.0 - reference_coat_share(s, to_eye, model);
+    }
+    return 1.0 - s.coverage + s.coverage * through;
 }
 
 glm::dvec3 reference_reflection(const SurfaceSample& surface, const glm::dvec3& to_eye,

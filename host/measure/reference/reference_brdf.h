@@ -31,6 +31,11 @@ double reference_coat_share(const SurfaceSample& surface, const glm::dvec3& to_e
 glm::dvec3 reference_ambient_albedo(const SurfaceSample& surface, const glm::dvec3& to_eye,
                                     Shading model);
 
+/// The share of the light behind a surface that it lets through to the eye: what alpha leaves
+/// bare, and KHR_materials_transmission's of a smooth surface seen head on by its half vector.
+glm::dvec3 reference_share_behind(const SurfaceSample& surface, const glm::dvec3& to_eye,
+                                  Shading model);
+
 /// Radiance that the surface sends to the eye by irradiance 1 from `to_light`, perpendicular to it:
 /// BRDF times cosine of the surface with its sheen and of its coat, mixed by the coat's share.
 glm::dvec3 reference_reflection(const SurfaceSample& surface, const glm::dvec3& to_eye,

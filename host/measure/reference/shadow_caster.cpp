@@ -26,12 +26,17 @@ bool ShadowCaster::hides(const Ray& ray, const RayHit& hit) const {
     pixel_ray.direction = ray.direction;
     const SurfaceHit surface{scene_, textures_, bvh_.triangles()[hit.index], hit, pixel_ray};
     const Material& material = material_of(surface);
-    if (material.alpha_mode == AlphaMode::blend) return false;
+    if (is_blended(material)) return false;
     if (material.alpha_mode != AlphaMode::mask) return true;
     return base_color_at(surface).w >= static_cast<double>(material.alpha_cutoff);
 }
 
-std::optional<ShadowPoint> ShadowCaster::point_at(const glm::dvec3& p_view) const {
+bool ShadowCaster::is_blended_at(const RayHit& hit) const {
+    const Instance& instance = scene_.instances[bvh_.triangles()[hit.index].instance];
+    return is_blended(scene_, scene_.meshes[static_cast<std::size_t>(instance.mesh)]);
+}
+
+std::optional<ShadowPoint> ShadowCaster::point_at(const glm::dvec3& p_view, bool blended) const {
     Ray ray;
     const glm::dvec3 way = camera_.world_from_view * p_view;
     ray.direction =
@@ -39,7 +44,9 @@ std::optional<ShadowPoint> ShadowCaster::point_at(const glm::dvec3& p_view) cons
     ray.origin = camera_.position + way - ray.direction;
     ray.t_min = 1.0 - kDepthError;
     ray.t_max = 1.0 + kDepthError;
-    const auto hit = bvh_.nearest(ray, [&](const RayHit& found) { return hides(ray, found); });
+    const auto hit = bvh_.nearest(ray, [&](const RayHit& found) {
+        return blended ? is_blended_at(found) : hides(ray, found);
+    });
     if (!hit) return std::nullopt;
     const BvhTriangle& triangle = bvh_.triangles()[hit->index];
     ShadowPoint out;

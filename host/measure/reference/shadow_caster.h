@@ -27,8 +27,8 @@ class ShadowCaster {
     ShadowCaster(const Scene& scene, const Camera& camera);
 
     /// The surface's point that the camera sees through p_view [m], a point on it but for rounding;
-    /// none if it sees nothing there.
-    std::optional<ShadowPoint> point_at(const glm::dvec3& p_view) const;
+    /// none if it sees nothing there. `blended`: among the surfaces that blend, else the others.
+    std::optional<ShadowPoint> point_at(const glm::dvec3& p_view, bool blended = false) const;
 
     /// Whether the way from the point to the light at `p_view` [m] is free.
     bool sees(const ShadowPoint& from, const glm::dvec3& p_view) const;
@@ -38,6 +38,7 @@ class ShadowCaster {
  private:
     bool is_free(const ShadowPoint& from, const glm::dvec3& way, double end) const;
     bool hides(const Ray& ray, const RayHit& hit) const;
+    bool is_blended_at(const RayHit& hit) const;
 
     const Scene& scene_;
     Camera camera_;

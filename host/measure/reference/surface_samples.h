@@ -25,6 +25,8 @@ struct SurfaceSample {
     SURFACE_VALUES(SAMPLE_VECTOR, SAMPLE_SCALAR)
 #undef SAMPLE_VECTOR
 #undef SAMPLE_SCALAR
+    double coverage = 1.0;  // of what is behind: its material's alpha
+    bool blended = false;   // it lies over what is behind
     SurfaceKind kind = SurfaceKind::background;
     std::uint32_t instance = 0;  // of the scene, where a ray hit
     std::uint32_t triangle = 0;  // of the instance's mesh

@@ -90,7 +90,8 @@ ComparedRow ReportComparison::compare(const ReportSetting& setting, const Report
     const ComparedReference& kernels = references_.kernels(settings, device);
     Renderer renderer(device.opened, settings);
     const Frame frame = picture_of(renderer, setting);
-    if (settings.renderer == RendererKind::deferred) {
+    const bool is_listed = settings.renderer == RendererKind::deferred;
+    if (is_listed && !has_blended_surfaces(view_.scene)) {
         row.missed_lights = missed_lights(renderer.lit_surfaces().surfaces, kernels.picture);
     }
     row.kernels = picture_errors(frame, kernels);

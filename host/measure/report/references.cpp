@@ -68,38 +68,44 @@ const ComparedReference& ReportReferences::kernels(const RenderSettings& setting
     const std::scoped_lock lock(mutex_);
     if (const auto found = kernels_.find(key); found != kernels_.end()) return found->second;
     on_step_();
+    auto made = has_blended_surfaces(view_.scene) ? cast_reference(decoded, decoded, true)
+                                                  : decoded_reference(decoded, device);
+    return kernels_.emplace(key, std::move(made)).first->second;  // whole: the device may fail
+}
+
+ComparedReference ReportReferences::decoded_reference(const RenderSettings& decoded,
+                                                      const ReportDevice& device) {
     RenderSettings exact = decoded;
     exact.kernels = {};
     exact.shadows = Shadows::off;  // only surfaces and lights are read
     exact.opened = device.gpu;
     Renderer renderer(device.opened, exact);
     renderer.render(view_.camera, view_.time);
-    auto made = compared_reference(
-        shade_reference(renderer.lit_surfaces(), options_of(decoded, true)), asked_);
-    return kernels_.emplace(key, std::move(made)).first->second;  // whole: the device may fail
+    return compared_reference(shade_reference(renderer.lit_surfaces(), options_of(decoded, true)),
+                              asked_);
 }
 
-ComparedReference ReportReferences::cast_reference(const RenderSettings& lights, bool windowed) {
+ComparedReference ReportReferences::cast_reference(const RenderSettings& lights,
+                                                   const RenderSettings& shading, bool windowed) {
     return compared_reference(
-        shade_reference(cast(), usable_lights(view_, lights), options_of(asked_, windowed)),
+        shade_reference(cast(), usable_lights(view_, lights), options_of(shading, windowed)),
         asked_);
 }
 
-const SurfaceSamples& ReportReferences::cast() {
-    if (!cast_) {
-        cast_ =
-            RayCaster(view_.scene).cast(view_.camera, asked_.width, asked_.height, [this](double) {
-                on_step_();
-            });
+const std::vector<SurfaceSamples>& ReportReferences::cast() {
+    if (cast_.empty()) {
+        cast_ = RayCaster(view_.scene)
+                    .cast_layers(view_.camera, asked_.width, asked_.height,
+                                 [this](double) { on_step_(); });
     }
-    return *cast_;
+    return cast_;
 }
 
 const ComparedReference& ReportReferences::surfaces(const RenderSettings& settings) {
     const std::string key = ranges_key(settings);
     const std::scoped_lock lock(mutex_);
     if (const auto found = surfaces_.find(key); found != surfaces_.end()) return found->second;
-    return surfaces_.emplace(key, cast_reference(settings, true)).first->second;
+    return surfaces_.emplace(key, cast_reference(settings, asked_, true)).first->second;
 }
 
 const ComparedReference& ReportReferences::rasterised(const RenderSettings& settings,
@@ -113,7 +119,7 @@ const ComparedReference& ReportReferences::rasterised(const RenderSettings& sett
 
 const ComparedReference& ReportReferences::unbounded() {
     const std::scoped_lock lock(mutex_);
-    if (!unbounded_) unbounded_ = cast_reference(asked_, false);
+    if (!unbounded_) unbounded_ = cast_reference(asked_, asked_, false);
     return *unbounded_;
 }
 

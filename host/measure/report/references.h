@@ -37,7 +37,9 @@ struct ReportDevice {
 /// R1 isolates the kernels' arithmetic and culling: the same decoded G-buffer, float32 lights and
 /// shading model, every light at every pixel, shadows where the setting has some. R2 isolates the
 /// G-buffer and the shading model: rays cast at the pixels' centres, nothing quantised, the model
-/// asked for. R3 adds the error of the lights' ranges: unbounded inverse square.
+/// asked for, with the surfaces that blend. A scene with such surfaces has R2, for the setting's
+/// shading model, in R1's place, too. R3 adds the error of the lights' ranges: unbounded inverse
+/// square.
 class ReportReferences {
  public:
     /// `asked`: the settings asked for, at the size of the comparison. `view.scene` must outlive
@@ -70,16 +72,19 @@ class ReportReferences {
 
  private:
     ReferenceOptions options_of(const RenderSettings& settings, bool windowed) const;
-    const SurfaceSamples& cast();
-    // Casts rays into the scene, lit with the ranges of `lights`.
-    ComparedReference cast_reference(const RenderSettings& lights, bool windowed);
+    const std::vector<SurfaceSamples>& cast();
+    // Casts rays into the scene, lit with the ranges of `lights` by the model of `shading`.
+    ComparedReference cast_reference(const RenderSettings& lights, const RenderSettings& shading,
+                                     bool windowed);
+    // R1's renderer where the scene has no surfaces that blend.
+    ComparedReference decoded_reference(const RenderSettings& decoded, const ReportDevice& device);
 
     ReportView view_;
     RenderSettings asked_;
     std::mutex mutex_;  // held while a reference is looked for or made
     std::function<void()> on_step_ = [] {};
     std::shared_ptr<const ShadowCaster> shadows_;  // where the settings asked for have some
-    std::optional<SurfaceSamples> cast_;
+    std::vector<SurfaceSamples> cast_;             // empty: not yet
     std::map<std::string, ComparedReference> kernels_, surfaces_;
     std::optional<ComparedReference> unbounded_;
 };

@@ -112,7 +112,8 @@ Bytes scene_device_bytes(const Scene& scene, const RenderSettings& settings, con
     const std::size_t nodes = plan.kernels.light_tree ? 2 * scene.lights.size() : 0;
     Bytes bytes = (settings.lights.count + scene.lights.size() + nodes) * kLight;
     if (ids || blends) {
-        bytes += surface_scene_bytes(scene, surface_features(scene, plan.gbuffer, kAnyAnisotropy));
+        bytes += surface_scene_bytes(
+            scene, surface_features(scene, plan.of_layers().gbuffer, kAnyAnisotropy));
     }
     bytes += EnvironmentLight::device_bytes(settings);
     if (ids && settings.geometry != Geometry::ids) {  // `automatic` may draw in OpenCL, too
@@ -127,10 +128,13 @@ Bytes scene_device_bytes(const Scene& scene, const RenderSettings& settings, con
 Bytes band_pixel_bytes(const RenderSettings& settings, const ScenePlan& plan, bool ids,
                        bool blends) {
     const bool decodes = settings.want.pixels();
-    Bytes lit = static_cast<Bytes>(plan.gbuffer_bytes_per_pixel) + BinPixels::kPixelBytes;
-    if (plan.kernels.shadows) lit += ShadowOrigins::kPixelBytes;
-    Bytes bytes = lit + kBandPixel;
-    if (blends) bytes += lit + Layers::kPixelBytes;
+    Bytes lists = BinPixels::kPixelBytes;
+    if (plan.kernels.shadows) lists += ShadowOrigins::kPixelBytes;
+    Bytes bytes = static_cast<Bytes>(plan.gbuffer_bytes_per_pixel) + lists + kBandPixel;
+    if (blends) {
+        bytes += static_cast<Bytes>(plan.of_layers().gbuffer_bytes_per_pixel) + lists +
+                 Layers::kPixelBytes;
+    }
     if (ids) bytes += RasterTriangles::kPixelBytes;  // or as many that OpenGL hands over
     if (ids && settings.auto_samples.on) bytes += MaskTiles::kPixelBytes;
     if (settings.auto_samples.on) {
@@ -167,7 +171,7 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
     need.band_pixel = band_pixel_bytes(settings, plan, ids, blends);
     need.largest_element =
         std::max<Bytes>(settings.want.pixels() ? DecodeGBuffer::kPixelBytes : Radiance::kPixelBytes,
-                        static_cast<Bytes>(plan.gbuffer_bytes_per_pixel));
+                        static_cast<Bytes>(plan.of_layers().gbuffer_bytes_per_pixel));
     return need;
 }
 

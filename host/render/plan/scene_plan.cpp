@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
 
 #include "host/base/error.h"
 #include "host/render/plan/settings_check.h"
@@ -57,10 +58,11 @@ constexpr MaterialFeature kMaterialFeatures[] = {
     {&F::clearcoat, [](const Material& m) { return !m.unlit && m.clearcoat > 0.0f; }, SHADING_PBR},
     {&F::sheen, [](const Material& m) { return !m.unlit && m.sheen_color != glm::vec3(0.0f); },
      SHADING_PBR},
+    {&F::transmission, [](const Material& m) { return m.transmission > 0.0f; }},
     {&F::unlit_materials, [](const Material& m) { return m.unlit; }},
     {&F::normal_maps, [](const Material& m) { return tangent_map(m).present(); }},
     {&F::alpha_mask, [](const Material& m) { return m.alpha_mode == AlphaMode::mask; }},
-    {&F::alpha_blend, [](const Material& m) { return m.alpha_mode == AlphaMode::blend; }},
+    {&F::alpha_blend, [](const Material& m) { return is_blended(m); }},
 };
 
 SceneFeatures features_of(const Scene& scene, const std::vector<Material>& materials) {
@@ -99,7 +101,18 @@ SceneFeatures needed(SceneFeatures out, int shading, const RenderSettings& setti
     return out;
 }
 
+int bytes_per_pixel(const GBufferNeeds& needs) {
+    return static_cast<int>(make_gbuffer_layout(needs, 16, 1).bytes_per_pixel);
+}
+
 }  // namespace
+
+ScenePlan ScenePlan::of_layers() const {
+    ScenePlan out = *this;
+    out.kernels.transmission = out.gbuffer.transmission = transmission;
+    out.gbuffer_bytes_per_pixel = bytes_per_pixel(out.gbuffer);
+    return out;
+}
 
 const std::vector<std::string>& forceable_features() {
     static const std::vector<std::string> names = [] {
@@ -138,6 +151,7 @@ ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings,
     }
     features = needed(features, shading, settings);
     ScenePlan plan;
+    plan.transmission = std::exchange(features.transmission, false);
     static_cast<SceneFeatures&>(plan.kernels) = features;
     plan.kernels.shading = shading;
     plan.kernels.gbuffer = settings.gbuffer;
@@ -153,8 +167,8 @@ ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings,
     static_cast<SceneFeatures&>(plan.gbuffer) = features;
     plan.gbuffer.layout = settings.gbuffer;
     plan.gbuffer.emissive_scale = emission > 0.0f ? emission : 1.0f;
-    plan.gbuffer_bytes_per_pixel =
-        static_cast<int>(make_gbuffer_layout(plan.gbuffer, 16, 1).bytes_per_pixel);
+    plan.gbuffer_bytes_per_pixel = bytes_per_pixel(plan.gbuffer);
+    features.transmission = plan.transmission;
     plan.features.emplace_back(kShadingNames[shading]);
     for (const SceneFeature& feature : scene_feature_table()) {
         if (feature.name.empty()) continue;
@@ -169,8 +183,7 @@ int added_bytes_per_pixel(const ScenePlan& plan, std::string_view feature) {
         if (row.name == feature) needs.*row.member = true;
     }
     needs.material = needs.metallic || needs.emissive;
-    return static_cast<int>(make_gbuffer_layout(needs, 16, 1).bytes_per_pixel) -
-           plan.gbuffer_bytes_per_pixel;
+    return bytes_per_pixel(needs) - plan.gbuffer_bytes_per_pixel;
 }
 
 }  // namespace kilolux

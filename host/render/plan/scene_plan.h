@@ -19,6 +19,10 @@ struct ScenePlan {
     KernelFeatures kernels;
     GBufferNeeds gbuffer;
     int gbuffer_bytes_per_pixel = 0;
+    bool transmission = false;  // of blended surfaces; those of `kernels` and `gbuffer` have none
+
+    /// The same for the surfaces that blend.
+    ScenePlan of_layers() const;
     bool operator==(const ScenePlan&) const = default;
 };
 

@@ -7,10 +7,22 @@
 
 namespace kilolux {
 
+namespace {
+
+// log2 of the transmittance of 1 m. Of black, which no light passes, that of 1e-30.
+glm::vec3 attenuation(const Material& m) {
+    return glm::log2(glm::max(m.attenuation_color, 1e-30f)) /
+           std::max(m.attenuation_distance, 1e-30f);
+}
+
+}  // namespace
+
 MaterialRow material_row(const Material& material) {
     MaterialRow row{};
     const glm::vec3 f0 = dielectric_reflectance(material);
     row.specular = {f0.x, f0.y, f0.z, 0.0f};
+    const glm::vec3 left = attenuation(material);
+    row.volume = {left.x, left.y, left.z, 0.0f};
     for (const MaterialFactor& factor : kMaterialFactors) {
         if (factor.row == nullptr) continue;
         const auto values = factor_values(material, factor);

@@ -48,6 +48,7 @@ SurfaceMaterial surface_material(const Material& material, const TextureTable& t
     if (material.double_sided) out.flags |= MATERIAL_DOUBLE_SIDED;
     if (material.unlit) out.flags |= MATERIAL_UNLIT;
     if (material.alpha_mode == AlphaMode::mask) out.flags |= MATERIAL_MASKED;
+    if (material.alpha_mode == AlphaMode::blend) out.flags |= MATERIAL_BLENDED;
     for (int use = 0; use < USE_COUNT; ++use) {
         out.textures[use] = textures.number_of(material, use);
         if (texture_use(material, use).uv_set == 1) out.flags |= 1u << use;

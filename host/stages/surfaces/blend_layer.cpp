@@ -4,22 +4,25 @@
 namespace kilolux {
 namespace {
 
-BuildOptions blend_options(const Tuning& tuning, const SurfaceFeatures& features) {
-    BuildOptions options;
-    define_surfaces(options, alpha_features(features), tuning);
+BuildOptions blend_options(const Tuning& tuning, const KernelFeatures& features,
+                           const SurfaceFeatures& surfaces) {
+    BuildOptions options = feature_options(features);
+    define_surfaces(options, alpha_features(surfaces), tuning);
     return options;
 }
 
 }  // namespace
 
-BlendLayer::BlendLayer(const Gpu& gpu, const Tuning& tuning, const SurfaceFeatures& features)
+BlendLayer::BlendLayer(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
+                       const SurfaceFeatures& surfaces)
     : tuning_(tuning),
-      kernel_(gpu, build_program(gpu, kBlendLayerStage, blend_options(tuning, features)),
+      kernel_(gpu, build_program(gpu, kBlendLayerStage, blend_options(tuning, features, surfaces)),
               kBlendLayerStage, "blend_layer") {}
 
 void BlendLayer::enqueue(const DeviceArray<uint>& ids, const SurfaceBuffers& scene,
-                         const Radiance& layer, const Radiance& behind, StageTimer& timer) {
-    kernel_.enqueue(kernel_.pixel_items(layer.view, tuning_.shade_rows), timer, layer.view, scene,
+                         const GBuffer& surfaces, const Radiance& layer, const Radiance& behind,
+                         StageTimer& timer) {
+    kernel_.enqueue(kernel_.pixel_items(layer.view, tuning_.shade_rows), timer, surfaces, scene,
                     ids, layer.planes, behind.planes);
 }
 
