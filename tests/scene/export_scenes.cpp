@@ -51,6 +51,12 @@ Material everything_material() {
     m.sheen_color_texture = {0, 1, glm::mat3(1.0f)};
     m.sheen_roughness = 0.6f;
     m.sheen_roughness_texture = {1, 0, glm::mat3(1.0f)};
+    m.transmission = 0.4f;
+    m.transmission_texture = {0, 1, glm::mat3(1.0f)};
+    m.thickness = 0.01f;
+    m.thickness_texture = {1, 0, glm::mat3(1.0f)};
+    m.attenuation_distance = 0.7f;
+    m.attenuation_color = {0.1f, 0.9f, 0.4f};
     return m;
 }
 
@@ -185,6 +191,9 @@ struct Materials {
         if (!same_use(m.sheen_color_texture, n.sheen_color_texture)) return "sheen's texture";
         if (!same_use(m.sheen_roughness_texture, n.sheen_roughness_texture))
             return "sheen's roughness texture";
+        if (!same_use(m.transmission_texture, n.transmission_texture))
+            return "transmission's texture";
+        if (!same_use(m.thickness_texture, n.thickness_texture)) return "thickness texture";
         return "";
     }
 };
@@ -209,6 +218,10 @@ std::string factor_difference(const Material& a, const Material& b) {
         a.clearcoat_normal_scale != b.clearcoat_normal_scale)
         return "coat's normal scale";
     if (a.sheen_color != b.sheen_color || a.sheen_roughness != b.sheen_roughness) return "sheen";
+    if (a.transmission != b.transmission) return "transmission";
+    if (a.thickness != b.thickness || a.attenuation_distance != b.attenuation_distance ||
+        a.attenuation_color != b.attenuation_color)
+        return "volume";
     return "";
 }
 

@@ -85,7 +85,14 @@ void add_materials(GltfBuilder& file) {
          {{"sheenColorFactor", {0.5, 0.25, 1}},
           {"sheenColorTexture", {{"index", jpeg}, {"texCoord", 1}}},
           {"sheenRoughnessFactor", 0.375},
-          {"sheenRoughnessTexture", {{"index", webp}}}}}};
+          {"sheenRoughnessTexture", {{"index", webp}}}}},
+        {"KHR_materials_transmission",
+         {{"transmissionFactor", 0}, {"transmissionTexture", {{"index", webp}}}}},
+        {"KHR_materials_volume",
+         {{"thicknessFactor", 0.25},
+          {"thicknessTexture", {{"index", jpeg}, {"texCoord", 1}}},
+          {"attenuationDistance", 0.5},
+          {"attenuationColor", {0.5, 0.25, 1}}}}};
     file.add("materials", {{"name", "lamp"},
                            {"alphaMode", "BLEND"},
                            {"extensions", {{"KHR_materials_unlit", json::object()}}}});
@@ -156,7 +163,8 @@ GltfBuilder every_feature_file() {
         "KHR_mesh_quantization",      "KHR_materials_emissive_strength",
         "KHR_materials_unlit",        "KHR_materials_ior",
         "KHR_materials_specular",     "KHR_materials_clearcoat",
-        "KHR_materials_sheen",        "EXT_meshopt_compression",
+        "KHR_materials_sheen",        "KHR_materials_transmission",
+        "KHR_materials_volume",       "EXT_meshopt_compression",
         "KHR_draco_mesh_compression", "EXT_texture_webp",
         "KHR_node_visibility"};
     file.root["extensionsUsed"] = file.root["extensionsRequired"];

@@ -2,6 +2,8 @@
 // Extensions that are left out, LoadOptions::strict, and variants of materials.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "host/base/error.h"
 #include "host/scene/gltf/load_scene.h"
 #include "tests/support/gltf_builder.h"
@@ -44,17 +46,39 @@ GltfBuilder file_with_spots(const std::vector<json>& cones) {
 }
 
 TEST(LoadSceneExtensions, OneWarningNamesWhatIsLeftOutAndHowItShows) {
-    const json names = {"KHR_materials_transmission", "KHR_materials_volume",
+    const json names = {"KHR_materials_iridescence", "KHR_materials_dispersion",
                         "KHR_texture_transform", "ACME_glitter", "KHR_xmp_json_ld"};
     const std::string warning =
-        warning_of(file_with(names, {"KHR_materials_transmission", "KHR_texture_transform"}));
-    EXPECT_TRUE(contains(warning,
-                         "scene.gltf: left out: KHR_materials_transmission (glass looks opaque), "
-                         "KHR_materials_volume (thick glass does not tint light), "
-                         "ACME_glitter (not supported)\n"))
+        warning_of(file_with(names, {"KHR_materials_iridescence", "KHR_texture_transform"}));
+    EXPECT_TRUE(
+        contains(warning,
+                 "scene.gltf: left out: KHR_materials_iridescence (thin films show no colours), "
+                 "KHR_materials_dispersion (glass shows no rainbow), "
+                 "ACME_glitter (not supported)\n"))
         << warning;
     EXPECT_EQ(std::count(warning.begin(), warning.end(), '\n'), 1) << warning;
     EXPECT_EQ(warning_of(file_with({"KHR_xmp_json_ld"}, {"KHR_xmp_json_ld"})), "");
+}
+
+TEST(LoadSceneExtensions, GlassSaysWhatItLacks) {
+    GltfBuilder file = triangle_file();
+    const auto glass = [&](double roughness, double thickness) {
+        file.root["materials"] = {{{"name", "pane"},
+                                   {"pbrMetallicRoughness", {{"roughnessFactor", roughness}}},
+                                   {"extensions",
+                                    {{"KHR_materials_transmission", {{"transmissionFactor", 0.75}}},
+                                     {"KHR_materials_volume", {{"thicknessFactor", thickness}}}}}}};
+        return warning_of(file);
+    };
+    EXPECT_EQ(glass(0.1, 0.0), "");
+    EXPECT_TRUE(contains(glass(0.5, 0.0),
+                         "material 'pane': rough glass does not blur what is behind it\n"));
+    EXPECT_TRUE(contains(glass(0.0, 2.0), "material 'pane': thick glass does not bend light\n"));
+    const Material pane = load(file).materials.at(0);
+    EXPECT_EQ(pane.transmission, 0.75f);
+    EXPECT_EQ(pane.thickness, 2.0f);
+    EXPECT_TRUE(std::isinf(pane.attenuation_distance));
+    EXPECT_TRUE(is_blended(pane));
 }
 
 TEST(LoadSceneExtensions, AFileThatRequiresAMaterialsExtensionLoads) {

@@ -115,6 +115,18 @@ void make_unlit(const GltfDocument& document, Material& material, bool colored) 
     }
 }
 
+// What glass lacks in the picture.
+void note_glass(const GltfDocument& document, const Material& material) {
+    constexpr float kSharp = 0.1f;  // roughness of which nobody sees the blur
+    if (material.transmission == 0.0f) return;
+    const auto left_out = [&](std::string_view what) {
+        document.leave_out(fmt::format("material '{}': {}", shown_uri(material.name), what));
+    };
+    if (material.roughness > kSharp) left_out("rough glass does not blur what is behind it");
+    if (material.thickness > 0.0f && material.ior != 1.0f)
+        left_out("thick glass does not bend light");
+}
+
 }  // namespace
 
 void set_unlit(Material& material) {
@@ -141,6 +153,7 @@ GltfMaterials convert_materials(const GltfDocument& document) {
     add_roughness_textures(document, out);
     for (Material& material : out.materials) {
         out.texcoord_sets.push_back(pack_texcoord_sets(document, material));
+        note_glass(document, material);
     }
     add_line_materials(document, out);
     return out;
