@@ -33,6 +33,7 @@ class RasterState {
         glUseProgram(0);
         glBindVertexArray(0);
         glDisable(GL_BLEND);
+        glBlendFunc(GL_ONE, GL_ZERO);  // several targets allow no second source, even if disabled
         glDisable(GL_SCISSOR_TEST);
         glDisable(GL_FRAMEBUFFER_SRGB);
         glDisable(GL_CULL_FACE);

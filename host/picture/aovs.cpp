@@ -84,6 +84,12 @@ void fill_error_bound(const DecodedSurfaces& s, const Camera&, Layer& layer) {
     });
 }
 
+void fill_layer_count(const DecodedSurfaces& s, const Camera&, Layer& layer) {
+    assert(!s.layers.empty());
+    fill(layer, layer.ids, s.view,
+         [&](std::size_t pixel, std::uint32_t* out) { *out = s.layers[pixel]; });
+}
+
 // Of --max-samples: see kAutoSamplesRange.
 std::uint64_t most_samples(const DecodedSurfaces&, std::uint64_t) { return 65536; }
 
@@ -146,7 +152,11 @@ const std::vector<AovKind>& aov_kinds() {
          {"sample-count"},
          "samples of --samples auto, integers",
          fill_sample_count,
-         most_samples}};
+         most_samples},
+        {"layer-count",
+         {"layer-count"},
+         "surfaces that blend over the pixel, integers",
+         fill_layer_count}};
     return kinds;
 }
 

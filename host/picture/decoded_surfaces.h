@@ -36,7 +36,8 @@ struct DecodedSurfaces {
     // [3][height][stride]: a bound of the radiance that ranges take from lights without one of
     // their own; empty if not asked for.
     std::vector<float> bound;
-    std::vector<uint> taken;  // [height][stride] samples; empty where their number was given
+    std::vector<uint> layers;  // [height][stride]: that blend; empty if not counted
+    std::vector<uint> taken;   // [height][stride] samples; empty where their number was given
     ClusterGrid grid{};
     bool unlit = false;  // whether a roughness of 0 means an unlit surface
 

@@ -76,7 +76,8 @@ void place_surfaces(DecodedSurfaces& whole, DecodedSurfaces&& band, int height) 
     for (const auto values : {&S::planes, &S::variance, &S::bound}) {
         place_planes(whole.*values, band.*values, band.view, rows);
     }
-    for (const auto counts : {&S::evaluated, &S::covering, &S::facing, &S::seen, &S::taken}) {
+    for (const auto counts :
+         {&S::evaluated, &S::covering, &S::facing, &S::seen, &S::layers, &S::taken}) {
         place_planes(whole.*counts, band.*counts, band.view, rows);
     }
     whole.view = band.view;
@@ -99,9 +100,11 @@ void add_band(FrameStats& whole, const FrameStats& band) {
                              &S::refined_pairs, &S::surface_pixels, &S::evaluations}) {
         whole.*count += band.*count;
     }
-    for (const auto count : {&S::triangles, &S::triangle_pairs, &S::seen_triangles, &S::texels}) {
+    for (const auto count :
+         {&S::triangles, &S::triangle_pairs, &S::seen_triangles, &S::texels, &S::layer_pixels}) {
         whole.*count += band.*count;
     }
+    whole.layers = std::max(whole.layers, band.layers);
     whole.build_ms += band.build_ms;
     whole.shadow_scenes_built += band.shadow_scenes_built;
     whole.shadows = whole.shadows + band.shadows;

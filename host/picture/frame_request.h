@@ -24,8 +24,12 @@ enum class ViewKind {
     overdraw,
     difference,
     false_positives,
-    shadows
+    shadows,
+    layers
 };
+
+/// Of which surfaces AOVs and views tell: the opaque ones, or the nearest, which may blend.
+enum class SurfaceLayer { opaque, nearest };
 
 /// The results that a caller wants of a frame. Nothing else leaves the device.
 struct FrameRequest {
@@ -36,7 +40,8 @@ struct FrameRequest {
     bool shadow_counts = false;     // also FrameStats::shadows, by casting the shadows once more
     ViewKind view = ViewKind::lit;  // what Frame::display shows
     std::vector<std::string> aovs;  // Frame::aovs, see aov_kinds()
-    bool probes = false;            // pixels will be probed: surfaces keep all attributes
+    SurfaceLayer layer = SurfaceLayer::opaque;
+    bool probes = false;  // pixels will be probed: surfaces keep all attributes
     // Renderers that make one picture together, whose caller takes it in strips of rows: see
     // MemoryPlan::strip_rows. 0: it takes the whole.
     int strip_makers = 0;
@@ -48,6 +53,12 @@ struct FrameRequest {
     }
     /// Whether surfaces or counts of single pixels are read.
     bool pixels() const { return !aovs.empty() || view != ViewKind::lit; }
+
+    /// Whether surfaces that blend are read.
+    bool layers() const {
+        return pixels() && (layer == SurfaceLayer::nearest || view == ViewKind::layers ||
+                            has_aov("layer-count"));
+    }
 
     /// Whether attributes of surfaces are wanted that no light needs.
     bool whole_surfaces() const { return pixels() || probes; }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "host/picture/web_in_view.h"
@@ -22,11 +23,20 @@ struct ProbedLight {
     std::optional<bool> seen;  // with shadows: whether nothing hides it from the pixel
 };
 
+/// SURFACE_*: view space; depth 0: background.
+using SurfaceValues = std::array<float, SURFACE_PLANES>;
+
+/// A surface that blends over those behind it.
+struct ProbedLayer {
+    SurfaceValues surface{};
+    std::string material;  // its name
+};
+
 /// What is known of one pixel and of the lists that light it.
 struct PixelProbe {
-    // SURFACE_*: view space; depth 0: background
-    std::array<float, SURFACE_PLANES> surface{};
-    bool unlit = false;  // whether a roughness of 0 means an unlit surface
+    SurfaceValues surface{};          // the opaque one
+    std::vector<ProbedLayer> layers;  // in front of it, from near to far
+    bool unlit = false;               // whether a roughness of 0 means an unlit surface
     ClusterGrid grid{};
     uint tile_x = 0, tile_y = 0, slice = 0;  // its coarse cluster
     uint coarse_count = 0;                   // lights in the coarse cluster's list

@@ -175,6 +175,23 @@ Canvas overdraw(const ViewInput& input) {
     });
 }
 
+// Also over background, unlike other views.
+Canvas layers(const ViewInput& input) {
+    const View& view = input.pixels.view;
+    const std::vector<uint>& counts = input.pixels.layers;
+    const HeatScale scale{0.0, std::max<double>(std::ranges::max(counts), 1.0), false, "LAYERS"};
+    Canvas canvas = make_canvas(static_cast<int>(view.width), static_cast<int>(view.height));
+    for (int y = 0; y < static_cast<int>(view.height); ++y) {
+        for (int x = 0; x < static_cast<int>(view.width); ++x) {
+            const std::size_t i =
+                static_cast<std::size_t>(y) * view.stride + static_cast<std::size_t>(x);
+            canvas.set(x, y, heat_color(position_on(scale, counts[i])));
+        }
+    }
+    draw_legend(canvas, scale);
+    return canvas;
+}
+
 // The largest channel's difference, over six decades below the picture's largest; where there is
 // none at all, a scale to 1.
 Canvas difference(const ViewInput& input) {
@@ -216,7 +233,8 @@ constexpr ViewRow kViews[] = {
     {ViewKind::false_positives, "false-positives", false_positives,
      "heat map of lights evaluated in vain (deferred only)"},
     {ViewKind::shadows, "shadows", shadows,
-     "heat map of the share of lights hidden (deferred only)"}};
+     "heat map of the share of lights hidden (deferred only)"},
+    {ViewKind::layers, "layers", layers, "heat map of surfaces that blend over a pixel"}};
 
 // A text of each row.
 std::vector<std::string> texts(std::string_view ViewRow::*text) {

@@ -26,6 +26,15 @@ std::size_t plane_size(const LitBand& band) {
     return std::size_t{band.surfaces.view.stride} * band.surfaces.view.height;
 }
 
+SurfaceValues surface_values(const Gpu& gpu, const cl::Buffer& planes, std::size_t plane_size,
+                             std::size_t pixel) {
+    SurfaceValues out{};
+    for (std::size_t i = 0; i < SURFACE_PLANES; ++i) {
+        out[i] = download<float>(gpu, planes, 1, i * plane_size + pixel).front();
+    }
+    return out;
+}
+
 // Adds to a probe what is known of its lights. `rows`: all lights.
 void add_lights(const RenderContext& context, const Camera& camera, const LightRows& rows,
                 PixelProbe& probe) {
@@ -82,7 +91,41 @@ DecodedSurfaces BandReader::pixels(const LastSample& last) {
     out.planes = download<float>(context_.gpu, decoder().enqueue(band.surfaces, untimed),
                                  SURFACE_PLANES * plane_size(band));
     count_evaluated(last, out);
+    if (context_.settings.want.layers()) add_layers(last, out);
     return out;
+}
+
+void BandReader::each_layer(const LastSample& last,
+                            const std::function<void(const BlendedLayer&)>& visit) {
+    if (!context_.blends()) return;
+    const View& view = last.band.surfaces.view;
+    const Band rows{static_cast<int>(view.first_row), static_cast<int>(view.height)};
+    StageTimer untimed;
+    last.stages.layer_surfaces().each(context_.device_surfaces(),
+                                      crop(last.camera, context_.settings.height, rows),
+                                      last.band.surfaces, untimed, visit);
+}
+
+// Counts the layers, and with SurfaceLayer::nearest puts their surfaces in place of those behind.
+void BandReader::add_layers(const LastSample& last, DecodedSurfaces& out) {
+    const std::size_t size = plane_size(last.band);
+    out.layers.assign(size, 0);
+    each_layer(last, [&](const BlendedLayer& layer) {
+        const std::vector<uint> ids = download<uint>(context_.gpu, layer.ids, size);
+        std::vector<float> planes;
+        if (context_.settings.want.layer == SurfaceLayer::nearest) {
+            StageTimer untimed;
+            planes = download<float>(context_.gpu, layer_decoder().enqueue(layer.surfaces, untimed),
+                                     SURFACE_PLANES * size);
+        }
+        for (std::size_t i = 0; i < size; ++i) {
+            if (ids[i] == 0) continue;
+            ++out.layers[i];
+            for (std::size_t from = i; from < planes.size(); from += size) {
+                out.planes[from] = planes[from];
+            }
+        }
+    });
 }
 
 void BandReader::count_evaluated(const LastSample& last, DecodedSurfaces& out) {
@@ -208,6 +251,10 @@ PixelProbe BandReader::probe(const LastSample& last, const LightRows& rows, int 
     last.stages.draw_missing_surfaces(last.camera, last.band);
     const LitBand& band = last.band;
     PixelProbe out = surface_at(band, x, y);
+    probe_layers(last,
+                 std::size_t{band.surfaces.view.stride} * static_cast<std::size_t>(y) +
+                     static_cast<std::size_t>(x),
+                 out);
     if (!out.has_surface()) return out;
     if (last.stages.lists()) {
         probe_lists(last, x, y, out);
@@ -233,14 +280,37 @@ PixelProbe BandReader::surface_at(const LitBand& band, int x, int y) {
     PixelProbe out;
     out.grid = grid;
     out.unlit = context_.plan.gbuffer.unlit;
-    for (std::size_t i = 0; i < SURFACE_PLANES; ++i) {
-        const std::size_t first = i * plane_size(band) + pixel;
-        out.surface[i] = download<float>(context_.gpu, planes, 1, first).front();
-    }
+    out.surface = surface_values(context_.gpu, planes, plane_size(band), pixel);
     out.tile_x = static_cast<uint>(x) / grid.tile_width;
     out.tile_y = static_cast<uint>(y) / grid.tile_height;
     out.slice = slice_of_depth(grid, out.surface[SURFACE_DEPTH]);
     return out;
+}
+
+// From near to far.
+void BandReader::probe_layers(const LastSample& last, std::size_t pixel, PixelProbe& out) {
+    const Scene& scene = context_.scene->scene();
+    each_layer(last, [&](const BlendedLayer& layer) {
+        const uint id = download<uint>(context_.gpu, layer.ids, 1, pixel).front();
+        if (id == 0) return;
+        const auto draw =
+            std::ranges::upper_bound(layer.draws, id - 1, {},
+                                     [](const Draw& d) { return d.row.first_triangle; }) -
+            1;
+        StageTimer untimed;
+        const cl::Buffer planes = layer_decoder().enqueue(layer.surfaces, untimed);
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(draw->mesh)];
+        out.layers.insert(out.layers.begin(),
+                          {surface_values(context_.gpu, planes, plane_size(last.band), pixel),
+                           material_of(scene, mesh).name});
+    });
+}
+
+DecodeGBuffer& BandReader::layer_decoder() {
+    if (!decode_layers_) {
+        decode_layers_.emplace(context_.gpu, context_.tuning, layer_plan(context_).kernels);
+    }
+    return *decode_layers_;
 }
 
 DecodeGBuffer& BandReader::decoder() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -47,6 +48,9 @@ class BandReader {
     LightCounts count_lights(const LastSample& last);
     void count_evaluated(const LastSample& last, DecodedSurfaces& out);
     void count_seen(const LastSample& last, DecodedSurfaces& out);
+    void add_layers(const LastSample& last, DecodedSurfaces& out);
+    void each_layer(const LastSample& last, const std::function<void(const BlendedLayer&)>& visit);
+    void probe_layers(const LastSample& last, std::size_t pixel, PixelProbe& out);
     std::vector<uint> forward_evaluated(const LastSample& last, const DecodedSurfaces& surfaces);
     std::vector<float> variance(const LastSample& last);
     std::vector<float> bound(const LastSample& last);
@@ -55,10 +59,11 @@ class BandReader {
     std::vector<bool> seen_lights(const LitBand& band, const ActiveCluster& cluster, uint x,
                                   uint y);
     DecodeGBuffer& decoder();
+    DecodeGBuffer& layer_decoder();
     TailErrors& tail_errors();
 
     RenderContext& context_;
-    std::optional<DecodeGBuffer> decode_;
+    std::optional<DecodeGBuffer> decode_, decode_layers_;
     std::optional<CountLights> count_lights_;
     std::optional<CountSeen> count_seen_;
     std::optional<CastShadows> counting_;

@@ -30,7 +30,9 @@ FrameStages::FrameStages(RenderContext& context) : context_(context) {
     } else {
         shade_all_.emplace(gpu, tuning, features, context.surface_features());
     }
-    if (context.blends()) layers_.emplace(context);
+    if (!context.blends()) return;
+    layer_surfaces();
+    layers_.emplace(context);
 }
 
 void FrameStages::draw_surfaces(const Sample& sample, LitBand& band, Measured out) {
@@ -90,7 +92,15 @@ Room FrameStages::room(const LitBand& band, Measured out) {
 
 void FrameStages::blend(const Sample& sample, LitBand& band, EnvironmentLight& environment,
                         Measured out) {
-    if (layers_) layers_->draw(sample, band, environment, out);
+    if (layers_) layers_->draw(sample, layer_surfaces(), band, environment, out);
+}
+
+BlendedLayers& FrameStages::layer_surfaces() {
+    if (!layer_surfaces_) {
+        layer_surfaces_.emplace(context_.resolving_gpu(), context_.tuning, context_.scene->scene(),
+                                layer_plan(context_));
+    }
+    return *layer_surfaces_;
 }
 
 void FrameStages::draw_missing_surfaces(const Camera& camera, LitBand& band) {

@@ -47,6 +47,9 @@ class FrameStages {
     /// device where stages count what they need. Sets the counts of lists.
     Room room(const LitBand& band, Measured out);
 
+    /// The surfaces that blend, as layers over the others.
+    BlendedLayers& layer_surfaces();
+
     /// Surfaces that blend, over the lit ones. Blocks.
     void blend(const Sample& sample, LitBand& band, EnvironmentLight& environment, Measured out);
     bool blends() const { return layers_.has_value(); }
@@ -76,6 +79,7 @@ class FrameStages {
     std::optional<Shade> shade_;
     std::optional<AllLightsLighting> shade_all_;
     std::optional<ForwardShading> forward_;
+    std::optional<BlendedLayers> layer_surfaces_;  // when first asked for
     std::optional<Layers> layers_;
 };
 

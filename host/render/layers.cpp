@@ -1,38 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/render/layers.h"
 
-#include "host/base/formats/gbuffer_layout.h"
-#include "host/base/system/interrupt.h"
-#include "host/gpu/repeat_until_fits.h"
+#include <algorithm>
 
 namespace kilolux {
 
-Layers::Layers(RenderContext& context)
-    : context_(context),
-      plan_(context.plan.of_layers()),
-      draw_list_(context.scene->scene()),
-      bin_(context.resolving_gpu(), context.tuning),
-      raster_(context.resolving_gpu(), context.tuning),
-      resolve_(context.resolving_gpu(), context.tuning, plan_.kernels,
-               context.surface_features(plan_)),
-      blend_(context.resolving_gpu(), context.tuning, plan_.kernels,
-             context.surface_features(plan_)) {
-    const KernelFeatures& features = plan_.kernels;
-    const SurfaceFeatures surfaces = context.surface_features(plan_);
-    if (features.shadows) origins_.emplace(context.resolving_gpu(), context.tuning, features);
-    if (context.settings.renderer == RendererKind::deferred) {
-        lighting_.emplace(context.gpu, context.tuning, features, surfaces);
-    } else {
-        all_.emplace(context.gpu, context.tuning, features, surfaces);
-    }
+SurfacePlan layer_plan(const RenderContext& context) {
+    const ScenePlan plan = context.plan.of_layers();
+    return {plan.kernels, context.surface_features(plan), plan.gbuffer};
 }
 
-TriangleLists Layers::list_triangles(const SurfaceBuffers& scene, std::span<const Draw> draws,
-                                     const View& view, StageTimer& timer) {
-    const uint triangles = drawn_triangles(draws, context_.scene->scene());
-    return repeat_until_fits(
-        timer, [&] { return bin_.enqueue(scene, triangles, view, timer); },
-        [&] { return bin_.fits(bin_.pairs()); });
+Layers::Layers(RenderContext& context)
+    : context_(context),
+      blend_(context.resolving_gpu(), context.tuning, layer_plan(context).kernels,
+             layer_plan(context).surfaces) {
+    const SurfacePlan plan = layer_plan(context);
+    if (plan.kernels.shadows) {
+        origins_.emplace(context.resolving_gpu(), context.tuning, plan.kernels);
+    }
+    if (context.settings.renderer == RendererKind::deferred) {
+        lighting_.emplace(context.gpu, context.tuning, plan.kernels, plan.surfaces);
+    } else {
+        all_.emplace(context.gpu, context.tuning, plan.kernels, plan.surfaces);
+    }
 }
 
 Radiance Layers::light(const LitBand& layer, StageTimer& timer) {
@@ -46,36 +36,30 @@ Radiance Layers::light(const LitBand& layer, StageTimer& timer) {
     return lighting_->light(input, timer);
 }
 
-void Layers::draw(const Sample& sample, const LitBand& band, EnvironmentLight& environment,
-                  Measured out) {
-    const View& view = band.surfaces.view;
-    const RenderSettings& settings = context_.settings;
-    const std::vector<Draw> draws =
-        draw_list_.visible(crop(sample.camera, settings.height, sample.band), settings.width,
-                           sample.band.rows, true, DrawOrder::front_to_back);
-    if (draws.empty()) return;
-    const SurfaceBuffers scene = context_.device_surfaces().at(draws);
-    const TriangleLists lists = list_triangles(scene, draws, view, out.timer);
-    raster_.begin(band.surfaces, out.timer);
+void Layers::draw(const Sample& sample, BlendedLayers& layers, const LitBand& band,
+                  EnvironmentLight& environment, Measured out) {
     LitBand layer;
     layer.lights = band.lights;
     layer.grid = band.grid;
     layer.shadows = band.shadows;
-    while (true) {
-        check_interrupt();
-        const DeviceArray<uint> ids = raster_.enqueue(scene, lists, out.timer);
-        if (raster_.pixels() == 0) return;
-        layer.surfaces = resolve_.enqueue(
-            ids, scene, make_gbuffer_layout(plan_.gbuffer, view.stride, view.height), view,
-            out.timer);
+    std::uint64_t count = 0;
+    const auto lay = [&](const BlendedLayer& next) {
+        ++count;
+        out.stats.layer_pixels += next.pixels;
+        layer.surfaces = next.surfaces;
         if (origins_) {
-            layer.shadows.origins = origins_->enqueue(
-                ids, scene, layer.surfaces, layer.shadows.casters, layer.shadows.view, out.timer);
+            layer.shadows.origins =
+                origins_->enqueue(next.ids, next.scene, layer.surfaces, layer.shadows.casters,
+                                  layer.shadows.view, out.timer);
         }
         layer.light = light(layer, out.timer);
         environment.enqueue(layer, out.timer);
-        blend_.enqueue(ids, scene, layer.surfaces, layer.light, band.light, out.timer);
-    }
+        blend_.enqueue(next.ids, next.scene, layer.surfaces, layer.light, band.light, out.timer);
+    };
+    layers.each(context_.device_surfaces(),
+                crop(sample.camera, context_.settings.height, sample.band), band.surfaces,
+                out.timer, lay);
+    out.stats.layers = std::max(out.stats.layers, count);
 }
 
 }  // namespace kilolux

@@ -63,6 +63,12 @@ std::string cluster_line(const FrameStats& s) {
                        s.coarse_pairs, s.active_clusters, s.refined_pairs);
 }
 
+std::string layer_line(const FrameStats& s) {
+    if (s.layers == 0) return "";
+    return fmt::format("layers  {} over a pixel at most, {} pixels of them all\n", s.layers,
+                       s.layer_pixels);
+}
+
 std::string sample_line(const SampleCounts& s) {
     if (s.total == 0) return "";
     const double mean = static_cast<double>(s.total) / static_cast<double>(s.pixels);
@@ -117,8 +123,8 @@ std::string picture_header(const Renderer& renderer) {
 }
 
 std::string frame_summary(const FrameRecord& last, const JobSummary& job) {
-    std::string out = light_line(last.stats) + sample_line(last.stats.samples) +
-                      cluster_line(last.stats) +
+    std::string out = light_line(last.stats) + layer_line(last.stats) +
+                      sample_line(last.stats.samples) + cluster_line(last.stats) +
                       (job.by_stage ? stage_lines(last.stats) : group_lines(last.stats)) +
                       time_line(kFrameStage, last.stats.frame_ms) + "\n";
     if (job.build_seconds >= kLongBuildSeconds) {

@@ -135,6 +135,13 @@ const Choices& choices_of(LightColors) {
     return choices;
 }
 
+const Choices& choices_of(SurfaceLayer) {
+    static const Choices choices = {
+        {"opaque", "the opaque ones, behind those that blend or transmit light"},
+        {"nearest", "the nearest ones; lights and clusters remain those of the opaque ones"}};
+    return choices;
+}
+
 Choices gbuffer_choices() {
     return {{gbuffer_layout_name(GBUFFER_PACKED), "12 bytes a pixel, more where materials need it"},
             {gbuffer_layout_name(GBUFFER_FULL), "32-bit floats"},

@@ -37,6 +37,7 @@ const Choices& choices_of(ProgressKind);
 const Choices& choices_of(MathMode);
 const Choices& choices_of(LightColors);
 const Choices& choices_of(ViewKind);
+const Choices& choices_of(SurfaceLayer);
 Choices gbuffer_choices();
 Choices aov_choices();
 Choices metric_choices();

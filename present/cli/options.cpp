@@ -45,7 +45,7 @@ void count_members(SharedOptions& options) {
     [[maybe_unused]] auto& [count, light_seed, radius, intensity, box] = lights;
     [[maybe_unused]] auto& [on, error, most] = auto_samples;
     [[maybe_unused]] auto& [display, radiance, shown_light, counts, shadow_counts, view, aovs,
-                            probes, strip_makers, crop_pixels] = want;
+                            layer, probes, strip_makers, crop_pixels] = want;
     [[maybe_unused]] auto& [tiles_x, tiles_y, slices_per_octave, fine_per_octave] = grid;
     [[maybe_unused]] auto& [lanes, group_height, chunks, math, light_colors] = kernels;
     [[maybe_unused]] auto& [index, framed, view_from, fit, position, focal_point, view_up,

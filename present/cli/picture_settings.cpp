@@ -58,7 +58,9 @@ void visit_picture(const SettingVisitor& f, SharedOptions& o) {
             },
             [&o] { return o.show_error ? "error" : name_of(o.settings.want.view); })
         .choice_list({"--aov", "", "none", "Layers of an EXR file beside its colour", kPicture},
-                     s.want.aovs, aov_choices());
+                     s.want.aovs, aov_choices())
+        .choice({"--aov-layer", "", "", "Of which surfaces --aov and --show tell", kPicture},
+                s.want.layer);
 }
 
 void visit_surfaces(const SettingVisitor& f, SharedOptions& o) {

@@ -30,20 +30,36 @@ struct ToWorld {
     glm::dvec3 point(const glm::dvec3& p) const { return direction(p) + camera.position; }
 };
 
-py::dict probe_dict(const ThreadRenderer::Probed& probed) {
-    const PixelProbe& probe = probed.probe;
-    const auto three = [&probe](std::size_t plane) {
-        return glm::dvec3(probe.surface[plane], probe.surface[plane + 1], probe.surface[plane + 2]);
+// What a probe tells of a surface.
+py::dict surface_dict(const SurfaceValues& surface, const ToWorld& to_world) {
+    const auto three = [&surface](std::size_t plane) {
+        return glm::dvec3(surface[plane], surface[plane + 1], surface[plane + 2]);
     };
-    const ToWorld to_world{probed.camera};
     py::dict out;
-    out["drawn"] = probe.has_surface();
-    out["depth"] = probe.surface[SURFACE_DEPTH];
+    out["depth"] = surface[SURFACE_DEPTH];
     out["position"] = tuple_of(to_world.point(three(SURFACE_POSITION)));
     out["normal"] = tuple_of(to_world.direction(three(SURFACE_NORMAL)));
     out["albedo"] = tuple_of(three(SURFACE_ALBEDO));
-    out["roughness"] = probe.surface[SURFACE_ROUGHNESS];
-    out["metallic"] = probe.surface[SURFACE_METALLIC];
+    out["roughness"] = surface[SURFACE_ROUGHNESS];
+    out["metallic"] = surface[SURFACE_METALLIC];
+    return out;
+}
+
+py::dict layer_dict(const ProbedLayer& layer, const ToWorld& to_world) {
+    py::dict out = surface_dict(layer.surface, to_world);
+    out["material"] = layer.material;
+    out["transmission"] = layer.surface[SURFACE_TRANSMISSION];
+    return out;
+}
+
+py::dict probe_dict(const ThreadRenderer::Probed& probed) {
+    const PixelProbe& probe = probed.probe;
+    const ToWorld to_world{probed.camera};
+    py::dict out = surface_dict(probe.surface, to_world);
+    out["drawn"] = probe.has_surface();
+    py::list layers;
+    for (const ProbedLayer& layer : probe.layers) layers.append(layer_dict(layer, to_world));
+    out["layers"] = layers;
     out["cluster"] = py::make_tuple(probe.tile_x, probe.tile_y, probe.slice);
     out["coarse_lights"] = probe.coarse_count;
     std::vector<glm::dvec3> positions, intensities;

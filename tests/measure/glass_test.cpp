@@ -92,29 +92,30 @@ RenderSettings glass_settings(uint gbuffer = GBUFFER_FULL) {
 }
 
 // Whether the pixel shows surfaces that face the camera, in every layer.
-bool is_inside(const std::vector<SurfaceSamples>& layers, std::size_t i) {
+bool is_inside(const std::vector<SurfaceSamples>& layers, std::size_t i, bool orthographic) {
     return std::ranges::all_of(layers, [&](const SurfaceSamples& layer) {
         const SurfaceSample& s = layer.pixels[i];
         return s.kind == SurfaceKind::background ||
-               glm::dot(s.normal, -glm::normalize(s.position)) > 0.2;
+               (orthographic ? s.normal.z : glm::dot(s.normal, -glm::normalize(s.position))) > 0.2;
     });
 }
 
 // Relative differences at the pixels off the sphere's silhouette.
-std::vector<double> glass_differences(const Scene& scene, const RenderSettings& settings) {
+std::vector<double> glass_differences(const Scene& scene, const RenderSettings& settings,
+                                      const Camera& camera = kGlassCamera) {
     Renderer renderer(scene, settings);
-    const Frame frame = renderer.render(kGlassCamera, 0.0);
+    const Frame frame = renderer.render(camera, 0.0);
     const std::vector<SurfaceSamples> layers =
-        RayCaster(scene).cast_layers(kGlassCamera, settings.width, settings.height);
+        RayCaster(scene).cast_layers(camera, settings.width, settings.height);
     const ReferencePicture expected =
-        shade_reference(layers, reference_lights(scene.lights, kGlassCamera, &scene),
-                        reference_options(renderer, kGlassCamera));
+        shade_reference(layers, reference_lights(scene.lights, camera, &scene),
+                        reference_options(renderer, camera));
     EXPECT_EQ(layers.size(), 4u);
     std::vector<double> out;
     for (std::size_t i = 0; i < frame.radiance.size(); ++i) {
         const double right = expected.radiance.rgb[i];
         if (layers[0].pixels[i / 3].kind == SurfaceKind::background) continue;
-        if (!is_inside(layers, i / 3)) continue;
+        if (!is_inside(layers, i / 3, camera.orthographic)) continue;
         out.push_back(std::abs(frame.radiance[i] - right) / right);
     }
     return out;
@@ -247,6 +248,119 @@ TEST(Glass, ABlackTextureIsTheMaterialWithoutIt) {
         EXPECT_EQ(with.render(kGlassCamera, 0.0).radiance,
                   without.render(kGlassCamera, 0.0).radiance);
     }
+}
+
+// Alpha of a texture and of vertices, by parallel rays.
+TEST(Glass, OfATextureAndVerticesAlphaBlends) {
+    Scene scene = glass_scene();
+    for (const std::size_t pane : {1u, 2u}) {
+        Material& m = scene.materials[pane];
+        m.transmission = 0.0f;
+        m.alpha_mode = AlphaMode::blend;
+        m.base_color_texture =
+            add_noise(scene, 8, 10 + static_cast<unsigned>(pane), {32, 32, 32}, 0);
+        scene.meshes[pane].colors = {
+            {1, 1, 1, 1}, {1, 0.5f, 1, 0.2f}, {1, 1, 1, 3}, {1, 1, 1, 0.5f}};
+        for (glm::vec4& color : scene.meshes[pane].colors) color = glm::min(color, 1.0f);
+    }
+    Camera camera = kGlassCamera;
+    camera.y_extent = 1.3;
+    camera.z_far = 20.0;
+    for (const RendererKind renderer : {RendererKind::deferred, RendererKind::forward}) {
+        for (camera.orthographic = false;; camera.orthographic = true) {
+            RenderSettings settings = glass_settings();
+            settings.renderer = renderer;
+            const std::vector<double> found = glass_differences(scene, settings, camera);
+            EXPECT_GT(found.size(), 4000u);
+            EXPECT_LT(quantile(found, 0.5), 2e-5) << static_cast<int>(renderer);
+            EXPECT_LT(quantile(found, 0.98), 1e-3) << static_cast<int>(renderer);
+            if (camera.orthographic) break;
+        }
+    }
+}
+
+TEST(Glass, BandsAreTheSameBits) {
+    const Scene scene = glass_scene();
+    RenderSettings settings = glass_settings();
+    const Frame whole = Renderer(scene, settings).render(kGlassCamera, 0.0);
+    settings.band_rows = 32;
+    EXPECT_EQ(Renderer(scene, settings).render(kGlassCamera, 0.0).radiance, whole.radiance);
+}
+
+// The pixels at which all rays nearby meet as many surfaces.
+std::vector<std::size_t> even_pixels(const std::vector<SurfaceSamples>& layers) {
+    const auto count_at = [&](int x, int y) {
+        return std::ranges::count_if(layers, [&](const SurfaceSamples& layer) {
+            return layer.at(x, y).kind != SurfaceKind::background;
+        });
+    };
+    std::vector<std::size_t> out;
+    const SurfaceSamples& first = layers.front();
+    for (int y = 1; y + 1 < first.height; ++y) {
+        for (int x = 1; x + 1 < first.width; ++x) {
+            const auto here = count_at(x, y);
+            if (count_at(x - 1, y) == here && count_at(x + 1, y) == here &&
+                count_at(x, y - 1) == here && count_at(x, y + 1) == here) {
+                out.push_back(first.index(x, y));
+            }
+        }
+    }
+    return out;
+}
+
+// The nearest surface that a ray meets, or the opaque one, and the number of the others.
+TEST(Glass, AovsTellOfTheLayerAskedFor) {
+    const Scene scene = glass_scene();
+    RenderSettings settings = glass_settings();
+    settings.want.aovs = {"depth", "layer-count"};
+    const std::vector<SurfaceSamples> layers =
+        RayCaster(scene).cast_layers(kGlassCamera, settings.width, settings.height);
+    for (const RendererKind renderer : {RendererKind::deferred, RendererKind::forward}) {
+        settings.renderer = renderer;
+        settings.gbuffer = GBUFFER_PACKED;
+        for (const SurfaceLayer layer : {SurfaceLayer::opaque, SurfaceLayer::nearest}) {
+            settings.want.layer = layer;
+            const Frame frame = Renderer(scene, settings).render(kGlassCamera, 0.0);
+            int several = 0;
+            for (const std::size_t i : even_pixels(layers)) {
+                double depth = 0.0;
+                std::uint32_t count = 0;
+                for (const SurfaceSamples& samples : layers) {
+                    const SurfaceSample& s = samples.pixels[i];
+                    if (s.kind == SurfaceKind::background) continue;
+                    if (s.blended) ++count;
+                    if (!s.blended || layer == SurfaceLayer::nearest) depth = -s.position.z;
+                }
+                several += count > 1 ? 1 : 0;
+                ASSERT_NEAR(frame.aovs[0].values[i], depth, 1e-5 * depth) << i;
+                ASSERT_EQ(frame.aovs[1].ids[i], count) << i;
+            }
+            EXPECT_GT(several, 1000);
+        }
+    }
+}
+
+TEST(Glass, TheProbeListsTheLayersFromNearToFar) {
+    Scene scene = glass_scene();
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        scene.materials[i].name = std::string(1, static_cast<char>('a' + i));
+    }
+    RenderSettings settings = glass_settings();
+    settings.want.probes = true;
+    Renderer renderer(scene, settings);
+    const Frame frame = renderer.render(kGlassCamera, 0.0);
+    EXPECT_EQ(frame.stats.layers, 3u);
+    const PixelProbe probe = renderer.probe(48, 48);
+    ASSERT_EQ(probe.layers.size(), 3u);
+    float before = 0.0f;
+    for (const auto& [name, layer] : {std::pair("b", 0u), std::pair("a", 1u), std::pair("c", 2u)}) {
+        EXPECT_EQ(probe.layers[layer].material, name);
+        const float depth = probe.layers[layer].surface[SURFACE_DEPTH];
+        EXPECT_GT(depth, before);
+        before = depth;
+    }
+    EXPECT_GT(probe.surface[SURFACE_DEPTH], before);
+    EXPECT_FLOAT_EQ(probe.layers[2].surface[SURFACE_TRANSMISSION], 0.6f);
 }
 
 }  // namespace

@@ -29,6 +29,7 @@
 #include "host/surfaces/shadow_scene.h"
 #include "host/surfaces/surface_scene.h"
 #include "kernels/shared/cluster_grid.h"
+#include "raster/forward_pass.h"
 #include "raster/solid_pass.h"
 
 namespace kilolux {
@@ -144,6 +145,7 @@ Bytes band_pixel_bytes(const RenderSettings& settings, const ScenePlan& plan, bo
     }
     if (decodes || settings.want.counts) bytes += 2 * CountLights::kPixelBytes;  // and on the host
     if (decodes) bytes += 2 * DecodeGBuffer::kPixelBytes + layer_bytes(settings);
+    if (settings.want.layers()) bytes += 2 * DecodeGBuffer::kPixelBytes + 2 * sizeof(uint);
     return bytes;
 }
 

@@ -203,13 +203,18 @@ void describe_probe(const ProbedPixel& pixel, const ScreenPlace& place, float sc
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                      ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing);
     fact_line("Pixel", pixel_line(pixel));
+    for (const ProbedLayer& layer : pixel.probe.layers) {
+        fact_line("Through",
+                  fmt::format("{} at {:.2f} m", layer.material, layer.surface[SURFACE_DEPTH]));
+    }
     if (pixel.probe.has_surface()) {
         const auto& s = pixel.probe.surface;
         const glm::dvec3 world = to_world(
             pixel.camera, {s[SURFACE_POSITION], s[SURFACE_POSITION + 1], s[SURFACE_POSITION + 2]});
         fact_line("Position", fmt::format("{:.2f}, {:.2f}, {:.2f} m", world.x, world.y, world.z));
-        // Ten lines stand around the table; long ones wrap.
-        const float rows = height / ImGui::GetTextLineHeightWithSpacing() - 10.0f;
+        // Ten lines stand around the table, and the layers; long ones wrap.
+        const float lines = 10.0f + static_cast<float>(pixel.probe.layers.size());
+        const float rows = height / ImGui::GetTextLineHeightWithSpacing() - lines;
         describe_lists(pixel,
                        static_cast<std::size_t>(std::clamp(rows, 1.0f, 1.0f * kShownLights)));
     }

@@ -118,6 +118,10 @@ void count_lines(const FrameStats& s) {
         }
         fact_line("A pixel", text);
     }
+    if (s.layers > 0) {
+        fact_line("Layers",
+                  fmt::format("{} over a pixel, {} pixels", s.layers, short_count(s.layer_pixels)));
+    }
     if (s.grid[2] == 0) return;
     fact_line("Grid", fmt::format("{}", fmt::join(s.grid, " x ")));
     if (s.coarse_pairs > 0) fact_line("Coarse pairs", short_count(s.coarse_pairs));
