@@ -18,6 +18,7 @@ struct KernelFeatures : SceneFeatures {
     bool native_math = false;        // native_sqrt, native_rsqrt, native_recip
     bool half_light_colors = false;
     bool sampled_shadows = false;  // with `shadows`: of picked lights only
+    bool tinted_shadows = false;   // with `shadows`, not sampled: surfaces that blend cast some
     bool light_tree = false;       // Tails::tree, and the scene has lights for the tree
     float tree_share = 0.0f;       // with light_tree: error of a node, see tree_cut.h
     bool operator==(const KernelFeatures&) const = default;

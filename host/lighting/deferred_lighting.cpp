@@ -8,7 +8,7 @@ namespace kilolux {
 
 DeferredLighting::DeferredLighting(const Gpu& gpu, const Tuning& tuning,
                                    const KernelFeatures& features, const SurfaceFeatures& surfaces)
-    : light_lists_(gpu, tuning, features), shade_(gpu, tuning, features) {
+    : light_lists_(gpu, tuning, features), shade_(gpu, tuning, features, surfaces) {
     if (features.shadows) visibility_.emplace(gpu, tuning, features, surfaces);
 }
 
@@ -23,7 +23,8 @@ Radiance DeferredLighting::enqueue(const LightingInput& input, StageTimer& timer
     seen_ = {};
     lists_ = light_lists_.enqueue(input.lights, input.gbuffer, input.grid, timer);
     if (visibility_) seen_ = visibility_->enqueue(lists_, input.gbuffer, input.shadows, timer);
-    return shade_.enqueue(lists_.at(input.gbuffer), timer, seen_.words, seen_.samples);
+    return shade_.enqueue(lists_.at(input.gbuffer), timer,
+                          {seen_.words, seen_.samples, input.shadows});
 }
 
 bool DeferredLighting::fits(StageTimer& timer) { return light_lists_.fits(timer); }

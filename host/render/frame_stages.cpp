@@ -21,7 +21,7 @@ FrameStages::FrameStages(RenderContext& context) : context_(context) {
         if (features.shadows) {
             visibility_.emplace(gpu, tuning, features, context.surface_features());
         }
-        shade_.emplace(gpu, tuning, features);
+        shade_.emplace(gpu, tuning, features, context.surface_features());
         if (context.shades_display()) {
             shade_->build(static_cast<int>(context.settings.tone_curve));
         } else {
@@ -69,8 +69,9 @@ void FrameStages::shade(const Sample& sample, LitBand& band, Measured out) {
     const float ambient = context_.settings.ambient;
     if (shade_) {
         shade_->set_ambient(ambient);
-        band.light = shade_->enqueue(band.lists.at(band.surfaces), out.timer, band.visible.words,
-                                     band.visible.samples, sample.display);
+        band.light = shade_->enqueue(band.lists.at(band.surfaces), out.timer,
+                                     {band.visible.words, band.visible.samples, band.shadows},
+                                     sample.display);
         band.display = sample.display;
     } else if (shade_all_) {
         shade_all_->set_ambient(ambient);

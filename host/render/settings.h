@@ -107,6 +107,7 @@ struct RenderSettings {
         false;  // also makes what did not change since the last frame; the bits are the same
     Shading shading = Shading::automatic;
     Shadows shadows = Shadows::off;
+    bool opaque_shadows = false;  // exact ones: not of surfaces that blend or transmit
     int shadow_rays = 4;    // of sampled shadows: most rays a pixel, on average
     float ambient = 0.02f;  // radiance that falls in from everywhere
     // Seen where no surface covers a pixel; null: black. It lights no surface.

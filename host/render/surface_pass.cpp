@@ -68,7 +68,7 @@ SurfacePass::SurfacePass(RenderContext& context) : context_(context), bridge_(co
     if (!context.plan.kernels.shadows) return;
     origins_.emplace(gpu, context.tuning, context.plan.kernels);
     if (!context.shadows) {
-        context.shadows = std::make_shared<ShadowScene>(context.gpu, scene, features.masks);
+        context.shadows = std::make_shared<ShadowScene>(context.gpu, scene);
     }
 }
 

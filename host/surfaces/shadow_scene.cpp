@@ -14,7 +14,14 @@ namespace {
 
 constexpr std::string_view kShadowOwner = "shadows";
 
-// Vertex colours and texture coordinates of a masked triangle.
+// Negative where it mirrors.
+float scale_of(const Instance& instance) {
+    const glm::dmat3 m(instance.world_from_object);
+    const double squares = glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]);
+    return static_cast<float>(std::copysign(std::sqrt(squares / 3.0), glm::determinant(m)));
+}
+
+// Vertex colours and texture coordinates of a triangle that is masked or tints light.
 MaskedCaster masked_caster(const Scene& scene, const Mesh& mesh, std::size_t triangle,
                            uint number) {
     const Material& material = material_of(scene, mesh);
@@ -34,7 +41,7 @@ MaskedCaster masked_caster(const Scene& scene, const Mesh& mesh, std::size_t tri
 // All casters on their way to the device.
 struct Casters {
     std::vector<float> triangles;  // also those that cast no shadows, which rays end at
-    std::vector<CasterBox> boxes;
+    std::vector<CasterBox> boxes, tinting;
     std::vector<MaskedCaster> masked;
     float extent = 0.0f;
 };
@@ -56,7 +63,7 @@ bool padded_box(const float* corners, CasterBox& box) {
     return true;
 }
 
-void add_triangle(const float* corners, uint child, bool casts, Casters& out) {
+void add_triangle(const float* corners, uint child, bool tints, Casters& out) {
     CasterBox box;
     box.child = SHADOW_LEAF | child;
     if (!padded_box(corners, box)) return;
@@ -64,14 +71,15 @@ void add_triangle(const float* corners, uint child, bool casts, Casters& out) {
         const float* p = corners + std::size_t{3} * static_cast<std::size_t>(i);
         out.extent = std::max(out.extent, std::abs(p[0]) + std::abs(p[1]) + std::abs(p[2]));
     }
-    if (casts) out.boxes.push_back(box);
+    (tints ? out.tinting : out.boxes).push_back(box);
 }
 
 void add_instance(const Scene& scene, const Instance& instance, const glm::dvec3& anchor,
                   Casters& out) {
     const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-    const bool casts = !is_blended(scene, mesh);
-    const bool masked = material_of(scene, mesh).alpha_mode == AlphaMode::mask;
+    const bool tints = is_blended(scene, mesh);
+    const bool masked = tints || material_of(scene, mesh).alpha_mode == AlphaMode::mask;
+    const float scale = scale_of(instance);
     glm::dmat4 shadow_from_object = instance.world_from_object;
     shadow_from_object[3] -= glm::dvec4(anchor, 0.0);
     std::vector<glm::vec3> positions;
@@ -89,8 +97,9 @@ void add_instance(const Scene& scene, const Instance& instance, const glm::dvec3
         if (masked) {
             child = SHADOW_MASKED | static_cast<uint>(out.masked.size());
             out.masked.push_back(masked_caster(scene, mesh, i, number));
+            out.masked.back().scale = scale;
         }
-        add_triangle(&out.triangles[std::size_t{9} * number], child, casts, out);
+        add_triangle(&out.triangles[std::size_t{9} * number], child, tints, out);
     }
 }
 
@@ -113,10 +122,9 @@ std::uint64_t shadow_scene_bytes(const Scene& scene) {
     return triangle_count(scene) * kTriangle;
 }
 
-ShadowScene::ShadowScene(const Gpu& gpu, const Scene& scene, bool masks)
+ShadowScene::ShadowScene(const Gpu& gpu, const Scene& scene)
     : gpu_(gpu),
       scene_(scene),
-      masks_(masks),
       nodes_(gpu, kShadowOwner),
       triangles_(gpu, kShadowOwner),
       masked_(gpu, kShadowOwner) {
@@ -137,11 +145,18 @@ void ShadowScene::build() {
     all.boxes.reserve(count);
     for (const Instance& instance : scene_.instances) add_instance(scene_, instance, anchor_, all);
     extent_ = all.extent;
-    const std::vector<ShadowNode> nodes = build_shadow_hierarchy(all.boxes);
+    std::vector<ShadowNode> nodes = build_shadow_hierarchy(all.boxes);
     levels_ = level_count(nodes);
+    tint_root_ = 0;
+    if (!all.tinting.empty()) {
+        tint_root_ = static_cast<uint>(nodes.size());
+        const std::vector<ShadowNode> tinting = build_shadow_hierarchy(all.tinting);
+        nodes.insert(nodes.end(), tinting.begin(), tinting.end());
+    }
     upload<ShadowNode>(gpu_, nodes_.reserve(nodes.size()), nodes);
     upload<float>(gpu_, triangles_.reserve(all.triangles.size()), all.triangles);
-    if (masks_) upload<MaskedCaster>(gpu_, masked_.reserve(all.masked.size()), all.masked);
+    if (!all.masked.empty())
+        upload<MaskedCaster>(gpu_, masked_.reserve(all.masked.size()), all.masked);
 }
 
 ShadowCasters ShadowScene::casters() {
@@ -161,6 +176,7 @@ ShadowView ShadowScene::view(const Camera& camera) const {
     for (int i = 0; i < 3; ++i) out.shadow_from_view[i] = row(rows[i], offset[i]);
     out.extent = extent_;
     out.levels = levels_;
+    out.tint_root = tint_root_;
     return out;
 }
 

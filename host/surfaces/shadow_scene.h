@@ -14,13 +14,12 @@ namespace kilolux {
 std::uint64_t shadow_scene_bytes(const Scene& scene);
 
 /// The shadow casters of a scene on the OpenCL device: all triangles, numbered along the scene's
-/// instances, and the hierarchy of the boxes of those that cast shadows: not of materials that
-/// blend.
+/// instances; the hierarchy of the boxes of those that hide light; and that of those that tint it,
+/// which blend or transmit.
 class ShadowScene {
  public:
-    /// The scene must outlive this; its meshes must stay as many. `masks`: some material is cut by
-    /// its alpha.
-    ShadowScene(const Gpu& gpu, const Scene& scene, bool masks);
+    /// The scene must outlive this; its meshes must stay as many.
+    ShadowScene(const Gpu& gpu, const Scene& scene);
 
     /// The casters as the scene has them now; rebuilt where its revisions say that surfaces moved.
     /// Materials and textures are not set. Valid until the next call.
@@ -37,11 +36,10 @@ class ShadowScene {
 
     Gpu gpu_;
     const Scene& scene_;
-    bool masks_;
     std::array<std::uint32_t, 2> revision_{};  // of the surfaces
     std::uint64_t built_ = 0;
     glm::dvec3 anchor_{0.0};  // shadow space's origin in the world [m]
-    uint levels_ = 0;
+    uint levels_ = 0, tint_root_ = 0;
     float extent_ = 0.0f;
     GrowingArray<ShadowNode> nodes_;
     GrowingArray<float> triangles_;

@@ -15,6 +15,10 @@ typedef struct LightSource {
 #if SHADOWS
     global const uint *word_offsets, *words;  // WORD_ARGS
 #endif
+#if TINTED_SHADOWS
+    global const float* origins;
+    ShadowScene casters;
+#endif
 } LightSource;
 
 static inline bool has_lights(LightSource from, uint tile) {
@@ -33,6 +37,12 @@ static inline LightSum source_sum(LightSource from, GBuffer g, ItemPlace at, Lit
 #else
     LightSum parallel = zero_sum();  // each cluster has bits of its own
     set.directional_count = from.directional_count;
+#endif
+#if TINTED_SHADOWS
+    ShadowPoints points;
+    set.tints.scene = tinting_scene(from.casters);
+    set.tints.points = &points;
+    load_origins(&points, 0u, from.origins, g.view.stride * g.view.height, item.pixels);
 #endif
     LightSum sum = parallel;
     FOR_EACH_CLUSTER(i, from.clusters, at.tile) {
@@ -55,12 +65,22 @@ static inline LightSum source_sum(LightSource from, GBuffer g, ItemPlace at, Lit
 
 #include "kernels/shading/shade_item.h"
 
-kernel void shade(LIT_ARGS, WORD_ARGS(const), SAMPLE_ARGS, OUTPUT_ARGS) {
+#if TINTED_SHADOWS
+#define TINT_ARGS SHADOW_ARGS,
+#else
+#define TINT_ARGS
+#endif
+
+kernel void shade(LIT_ARGS, WORD_ARGS(const), TINT_ARGS SAMPLE_ARGS, OUTPUT_ARGS) {
     LIGHT_SET_OF_ARGS(set);
     LightSource from = {CLUSTERS_OF_ARGS, lists, directional_lights, directional_count};
 #if SHADOWS
     from.word_offsets = word_offsets;
     from.words = words;
+#endif
+#if TINTED_SHADOWS
+    from.origins = origins;
+    from.casters = SHADOW_SCENE_OF_ARGS;
 #endif
     shade_item(GBUFFER_OF_ARGS, from, set, SHADE_OUTPUT_OF_ARGS);
 }

@@ -32,6 +32,10 @@ static inline LightSum source_sum(LightSource from, GBuffer g, ItemPlace at, Lit
     set.directional = from.directional;
     load_origins(&points, 0u, from.origins, g.view.stride * g.view.height, item.pixels);
 #endif
+#if TINTED_SHADOWS
+    set.tints.scene = tinting_scene(from.casters);
+    set.tints.points = &points;
+#endif
     LightSum sum = sum_directional(p, set, from.directional, from.directional_count);
     return sum_lights(sum, wanted, p, set, 0, from.count);
 }

@@ -11,7 +11,8 @@
 
 // Which pixels see a light: SHADOWS_NONE: all; SHADOWS_BITS: those whose bit cast_shadows has set;
 // SHADOWS_RAYS: those whose rays, cast on demand, reach it. SAMPLED_SHADOWS: only for picked
-// lights.
+// lights. TINTED_SHADOWS: surfaces that blend or transmit take a part of the light of the others;
+// not with SAMPLED_SHADOWS.
 #define SHADOWS_NONE 0
 #define SHADOWS_BITS 1
 #define SHADOWS_RAYS 2
@@ -21,9 +22,13 @@
 #ifndef SHADOWS
 #define SHADOWS SHADOWS_NONE
 #endif
+#ifndef TINTED_SHADOWS
+#define TINTED_SHADOWS 0
+#endif
 #if SHADOWS == SHADOWS_BITS
 #include "kernels/shadows/shadow_bits.h"
-#elif SHADOWS == SHADOWS_RAYS
+#endif
+#if SHADOWS == SHADOWS_RAYS || TINTED_SHADOWS
 #include "kernels/shadows/shadow_rays.h"
 #endif
 #include "kernels/shadows/shadow_pick.h"
@@ -49,7 +54,12 @@ typedef struct LightSet {
     uint directional_count;
 #elif SHADOWS == SHADOWS_RAYS
     ShadowRays shadows;
+#endif
+#if SHADOWS == SHADOWS_RAYS || TINTED_SHADOWS
     global const DirectionalLight* directional;
+#endif
+#if TINTED_SHADOWS
+    ShadowRays tints;  // of a tinting_scene()
 #endif
 #if SAMPLED_SHADOWS
     ShadowPick pick;
@@ -152,15 +162,34 @@ static inline LightSum sampled_sum(LightSet set, MASK hidden, LightSum one, Ligh
 #endif
 #endif
 
-// ADD_SEEN(sum, seen, lit): `lit`, the new value of `sum`, in the lanes that see the light. It is
-// computed only if any lane does.
-#define ADD_SEEN(sum, seen, lit)                                    \
-    {                                                               \
-        MASK lanes = (seen);                                        \
-        if (lane_any(lanes)) (sum) = select_sum(lanes, (lit), sum); \
+#define TINT_VIEW(set) (set).tints.scene.view
+#if TINTED_SHADOWS
+// The sum where surfaces tint the light: it is `one` alone, `lit` untinted with those before it.
+static inline LightSum tinted_sum(LightSet set, ShadowLight light, MASK lanes, LightSum sum,
+                                  LightSum one, LightSum lit) {
+    FV3 share;
+    set.tints.wanted = lanes;
+    MASK mask = tinted(set.tints, light, &share);
+    return lane_any(mask) ? select_sum(mask, add_tinted(sum, share, one), lit) : lit;
+}
+#define TINTED(set, light, lanes, sum, lit, ONE) tinted_sum(set, light, lanes, sum, ONE, lit)
+#else
+#define TINTED(set, light, lanes, sum, lit, ONE) (lit)
+#endif
+
+// ADD_SEEN(set, sum, seen, light, EVALUATED): adds a light where `seen`. EVALUATED(sum): the sum
+// with it, which is computed only if any lane sees it. light: as shadow rays have it.
+#define ADD_SEEN(set, sum, seen, light, EVALUATED)                            \
+    {                                                                         \
+        MASK lanes = (seen);                                                  \
+        if (lane_any(lanes)) {                                                \
+            LightSum lit = EVALUATED(sum);                                    \
+            lit = TINTED(set, light, lanes, sum, lit, EVALUATED(zero_sum())); \
+            (sum) = select_sum(lanes, lit, sum);                              \
+        }                                                                     \
     }
 #else
-#define ADD_SEEN(sum, seen, lit) (sum) = (lit);
+#define ADD_SEEN(set, sum, seen, light, EVALUATED) (sum) = EVALUATED(sum);
 #endif
 
 static inline uint light_of_entry(global const LIGHT_INDEX* list, uint entry) {
@@ -201,8 +230,9 @@ static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p, L
             ADD_SAMPLED(set, first + i, light, sum.block,
                         EVALUATE(zero_sum(), p, set.staged[i], set.profiles, light))
 #else
-            ADD_SEEN(sum.block, sees_entry(set, first + i, light),
-                     EVALUATE(sum.block, p, set.staged[i], set.profiles, light))
+#define STAGED_LIGHT(sum) EVALUATE(sum, p, set.staged[i], set.profiles, light)
+            ADD_SEEN(set, sum.block, sees_entry(set, first + i, light),
+                     shadow_point_light(TINT_VIEW(set), set.staged[i]), STAGED_LIGHT)
 #endif
         }
     }
@@ -215,8 +245,9 @@ static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p, L
         ADD_SAMPLED(set, i, light, sum.block,
                     EVALUATE(zero_sum(), p, LIGHT_AT(set.lights, light), set.profiles, light))
 #else
-        ADD_SEEN(sum.block, sees_entry(set, i, light),
-                 EVALUATE(sum.block, p, LIGHT_AT(set.lights, light), set.profiles, light))
+#define LISTED_LIGHT(sum) EVALUATE(sum, p, LIGHT_AT(set.lights, light), set.profiles, light)
+        ADD_SEEN(set, sum.block, sees_entry(set, i, light),
+                 shadow_point_light(TINT_VIEW(set), LIGHT_AT(set.lights, light)), LISTED_LIGHT)
 #endif
     }
 #endif
@@ -232,7 +263,9 @@ static inline LightSum sum_directional(ShadingPoint p, LightSet set,
         ADD_SAMPLED(set, i, PICKED_DIRECTIONAL + i, sum,
                     evaluate_directional(zero_sum(), p, lights[i]))
 #else
-        ADD_SEEN(sum, sees_directional(set, i), evaluate_directional(sum, p, lights[i]))
+#define PARALLEL_LIGHT(sum) evaluate_directional(sum, p, lights[i])
+        ADD_SEEN(set, sum, sees_directional(set, i),
+                 shadow_directional_light(TINT_VIEW(set), lights[i]), PARALLEL_LIGHT)
 #endif
     }
 #endif

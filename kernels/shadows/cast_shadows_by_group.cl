@@ -134,8 +134,8 @@ static inline bool shade_points(ShadowScene scene, ShadowLight light, local cons
             }
 #if HAS_MASKED_CASTERS
             if (shaded && (as_uint(f[4].w) & SHADOW_MASKED) != 0u) {
-                shaded &= is_opaque_at(scene.masked, as_uint(f[4].w) & SHADOW_NUMBER, u0 * f[4].x,
-                                       u1 * f[4].y, u2 * f[4].z);
+                CasterWeights w = caster_weights(u0 * f[4].x, u1 * f[4].y, u2 * f[4].z);
+                shaded &= is_opaque_at(scene.masked, as_uint(f[4].w) & SHADOW_NUMBER, w);
             }
 #endif
             lit &= ~shaded;

@@ -16,27 +16,35 @@ typedef struct MaskedScene {
     TextureBuffers textures;
 } MaskedScene;
 
-#if HAS_MASKED_CASTERS
-// Where alpha keeps caster `number`. u0..u2: in proportion to the weights of its corners; rounding
-// may make them slightly negative.
-static inline MASK is_opaque_at(MaskedScene scene, uint number, FV u0, FV u1, FV u2) {
-    MaskedCaster caster = scene.casters[number];
-    global const SurfaceMaterial* material = scene.materials + caster.material;
+// Weights of corners 1 and 2 of a caster.
+typedef struct CasterWeights {
+    FV b1, b2;
+} CasterWeights;
+
+// u0..u2: in proportion to the weights; rounding may make them slightly negative.
+static inline CasterWeights caster_weights(FV u0, FV u1, FV u2) {
     u0 = max(u0, fv(0.0f));
     u1 = max(u1, fv(0.0f));
     u2 = max(u2, fv(0.0f));
     FV inv = fv(1.0f) / max(u0 + u1 + u2, fv(1e-36f));
-    u1 *= inv;
-    u2 *= inv;
-    FV alpha = fma(u2, fv(caster.alpha[2] - caster.alpha[0]),
-                   fma(u1, fv(caster.alpha[1] - caster.alpha[0]), fv(caster.alpha[0])));
-    alpha *= material->row.base_color.w;
+    return (CasterWeights){u1 * inv, u2 * inv};
+}
+
+static inline FV weighted(const float* corners, CasterWeights w) {
+    return fma(w.b2, fv(corners[2] - corners[0]),
+               fma(w.b1, fv(corners[1] - corners[0]), fv(corners[0])));
+}
+
+#if HAS_MASKED_CASTERS
+// Where alpha keeps caster `number`.
+static inline MASK is_opaque_at(MaskedScene scene, uint number, CasterWeights w) {
+    MaskedCaster caster = scene.casters[number];
+    global const SurfaceMaterial* material = scene.materials + caster.material;
+    FV alpha = weighted(caster.alpha, w) * material->row.base_color.w;
     uint texture = material->textures[USE_BASE_COLOR];
     if (texture != SURFACE_ABSENT) {
-        FV s = fma(u2, fv(caster.u[2] - caster.u[0]),
-                   fma(u1, fv(caster.u[1] - caster.u[0]), fv(caster.u[0])));
-        FV t = fma(u2, fv(caster.v[2] - caster.v[0]),
-                   fma(u1, fv(caster.v[1] - caster.v[0]), fv(caster.v[0])));
+        FV s = weighted(caster.u, w);
+        FV t = weighted(caster.v, w);
 #if HAS_UV_TRANSFORM
         float4 x = material->row.uv_x[USE_BASE_COLOR];
         float4 y = material->row.uv_y[USE_BASE_COLOR];

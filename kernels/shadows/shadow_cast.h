@@ -20,15 +20,35 @@
 #define ADD_COUNT(points, name, number)
 #endif
 
+// Whether walks may sum what surfaces let through, at one row of points.
+#ifndef TINTED_SHADOWS
+#define TINTED_SHADOWS 0
+#endif
+#if TINTED_SHADOWS
+#include "kernels/shadows/shadow_tint.h"
+#endif
+
 // The shadow casters.
 typedef struct ShadowScene {
     global const ShadowNode* nodes;  // 0: the root
     global const float* casters;     // [][3][3]
     MaskedScene masked;
     ShadowView view;
+#if TINTED_SHADOWS
+    bool tints;  // the surfaces hide no point
+#endif
 } ShadowScene;
 #define SHADOW_SCENE_OF_ARGS \
     ((ShadowScene){shadow_nodes, casters, {masked_casters, materials, {textures, texels}}, shadow})
+
+#if TINTED_SHADOWS
+// The surfaces that tint light, of the same casters.
+static inline ShadowScene tinting_scene(ShadowScene scene) {
+    scene.nodes += scene.view.tint_root;
+    scene.tints = true;
+    return scene;
+}
+#endif
 
 // Points in rows of VW.
 typedef struct ShadowPoints {
@@ -39,6 +59,9 @@ typedef struct ShadowPoints {
     float lit[SHADOW_POINTS];        // masks in the bits of floats
     uchar rows[SHADOW_POINTS / VW];  // those with lit points
     uint row_count;
+#if TINTED_SHADOWS
+    TintSums tints;  // of row 0
+#endif
 #if COUNT_SHADOWS
     ShadowCounts counts;
 #endif
@@ -164,9 +187,18 @@ typedef struct FoundTriangles {
     const uint* children;  // [VW]
 } FoundTriangles;
 
+// With TINTED_SHADOWS, where the walk sums.
+#if TINTED_SHADOWS
+#define TINTS_PARAMETER , TintSums* tints
+#define TINTS_OF(points) , &(points)->tints
+#else
+#define TINTS_PARAMETER
+#define TINTS_OF(points)
+#endif
+
 // The part of `lit`, of a row's points, that none of the triangles hides from the light.
 static inline MASK lit_by_row(const FoundTriangles* found, ShadowScene scene, ShadowLight light,
-                              FV3 edge_point, FV3 point, MASK lit) {
+                              FV3 edge_point, FV3 point, MASK lit TINTS_PARAMETER) {
     for (uint bits = found->wanted; bits != 0u; bits &= bits - 1u) {
         uint lane = lowest_bit(bits);
         FV u0 = form_at(&found->forms, 0, lane, edge_point);
@@ -180,9 +212,19 @@ static inline MASK lit_by_row(const FoundTriangles* found, ShadowScene scene, Sh
 #if HAS_MASKED_CASTERS
         uint child = found->children[lane];
         if ((child & SHADOW_MASKED) != 0u) {
-            shaded &=
-                is_opaque_at(scene.masked, child & SHADOW_NUMBER, u0 * found->forms.of[16][lane],
-                             u1 * found->forms.of[17][lane], u2 * found->forms.of[18][lane]);
+            CasterWeights w =
+                caster_weights(u0 * found->forms.of[16][lane], u1 * found->forms.of[17][lane],
+                               u2 * found->forms.of[18][lane]);
+#if TINTED_SHADOWS
+            if (scene.tints) {
+                FV3 to_light = splat3(light.at);
+                if (!light.is_direction) to_light = sub3(to_light, point);
+                *tints = add_surface(*tints, scene.masked, scene.casters, child & SHADOW_NUMBER, w,
+                                     to_light, shaded);
+                continue;
+            }
+#endif
+            shaded &= is_opaque_at(scene.masked, child & SHADOW_NUMBER, w);
         }
 #endif
         lit &= ~shaded;
@@ -198,7 +240,7 @@ static inline void shade_rows(ShadowPoints* points, const FoundTriangles* found,
         MASK lit = lit_of(points, row);
         ADD_COUNT(points, points, popcount(found->wanted) * lane_count(lit));
         lit = lit_by_row(found, scene, light, load_edge_points(points, row),
-                         load_points(points, row), lit);
+                         load_points(points, row), lit TINTS_OF(points));
         lane_store(KX_CONCAT(as_, FV)(lit), points->lit + row * VW);
         points->rows[count] = (uchar)row;
         count += lane_any(lit) ? 1u : 0u;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Visibility of lights at the VW pixels of one work-item, by a walk for each light: the check of
-// cast_shadows, which walks once for all pixels of a cluster.
+// cast_shadows, which walks once for all pixels of a cluster. With TINTED_SHADOWS also what
+// surfaces between let through.
 #ifndef KILOLUX_DEVICE_SHADOW_RAYS_H
 #define KILOLUX_DEVICE_SHADOW_RAYS_H
 #define SHADOW_POINTS VW
@@ -12,18 +13,36 @@ typedef struct ShadowRays {
     MASK wanted;  // lanes that cast rays
 } ShadowRays;
 
-static inline MASK sees(ShadowRays rays, ShadowLight light) {
-    MASK lit = face_light(rays.points, 0u, light, rays.wanted);
-    if (!lane_any(lit)) return lit;
-    ulong tests_before = counted_tests(rays.points);
-    uint count = lane_count(lit);
+// Walks for the points `lit`, which face_light() began.
+static inline void walk_to(ShadowRays rays, ShadowLight light, MASK lit) {
     LaneBox box = {splat3((float3)(SHADOW_NOWHERE)), splat3((float3)(-SHADOW_NOWHERE))};
     box = grown_box(box, lit, load_points(rays.points, 0u));
     float3 low = (float3)(lane_min(box.low.x), lane_min(box.low.y), lane_min(box.low.z));
     float3 high = (float3)(lane_max(box.high.x), lane_max(box.high.y), lane_max(box.high.z));
     cast_shadows_of(rays.scene, light, low, high, 0u, 1u, rays.points);
+}
+
+static inline MASK sees(ShadowRays rays, ShadowLight light) {
+    MASK lit = face_light(rays.points, 0u, light, rays.wanted);
+    if (!lane_any(lit)) return lit;
+    ulong tests_before = counted_tests(rays.points);
+    uint count = lane_count(lit);
+    walk_to(rays, light, lit);
     lit = lit_of(rays.points, 0u);
     count_rays(rays.points, tests_before, count, lane_count(lit));
     return lit;
 }
+
+#if TINTED_SHADOWS
+// The points of rays.wanted whose light passes surfaces that tint it, and what passes. `rays`: of a
+// tinting_scene().
+static inline MASK tinted(ShadowRays rays, ShadowLight light, FV3* share) {
+    rays.points->tints = (TintSums){(UV)(0u), (UV)(0u), (UV)(0u)};
+    MASK lit = face_light(rays.points, 0u, light, rays.wanted);
+    if (lane_any(lit)) walk_to(rays, light, lit);
+    TintSums sums = rays.points->tints;
+    *share = fv3(share_of_units(sums.red), share_of_units(sums.green), share_of_units(sums.blue));
+    return lane_mask((sums.red | sums.green | sums.blue) != (UV)(0u));
+}
+#endif
 #endif

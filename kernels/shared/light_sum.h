@@ -47,6 +47,17 @@ SHARED_FN LightSum add_weighted(LightSum sum, FV weight, LightSum b) {
     return sum;
 }
 
+// Adds `b`, each channel times its share.
+SHARED_FN LightSum add_tinted(LightSum sum, FV3 share, LightSum b) {
+#define ADD_TINTED_TERM(has, term)                                                             \
+    if (has) {                                                                                 \
+        sum.term = fv3(fma(share.x, b.term.x, sum.term.x), fma(share.y, b.term.y, sum.term.y), \
+                       fma(share.z, b.term.z, sum.term.z));                                    \
+    }
+    LIGHT_TERMS(ADD_TINTED_TERM)
+    return sum;
+}
+
 SHARED_FN FV3 add_scaled(FV3 sum, FV weight, float4 color) {
     return fv3(fma(weight, fv(color.x), sum.x), fma(weight, fv(color.y), sum.y),
                fma(weight, fv(color.z), sum.z));

@@ -36,6 +36,13 @@ SHARED_FN FV exp2_of_negative(FV x) {
     return lane_from_bits(lane_bits(q) + (i << 23u));
 }
 
+// log2 of a positive number that is not denormal, error 1.7e-7 of it, or of 1 where it is larger.
+SHARED_FN FV log2_of(FV x) {
+    UV e = (lane_bits(x) - SQRT_HALF_BITS) & EXPONENT_MASK;  // times 2^23
+    FV f = fma(-x, lane_from_bits(ONE_BITS - e), fv(1.0f));  // 1 - m of x = m 2^e
+    return fma(-f, log2_slope(f), lane_from_int(e) * fv(1.1920929e-7f));
+}
+
 // cos^(2n) for an angle in [0, pi/2], with cos^2 = cos2 / scale, sin^2 = sin2 / scale and n >= 0.
 // Near the peak, where a large n magnifies the rounding of cos^2, it uses sin^2, else cos^2.
 // Absolute error below 3e-7 at any n.

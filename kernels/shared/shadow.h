@@ -42,13 +42,13 @@ SHARED_STRUCT(ShadowNode) {
 };
 SHARED_ASSERT(shadow_node_size, sizeof(ShadowNode) == 448);
 
-// A triangle with an alpha mask (glTF's MASK).
+// A triangle with an alpha mask (glTF's MASK), or of a surface that blends or transmits.
 SHARED_STRUCT(MaskedCaster) {
     float u[3], v[3];  // texture coordinates of the vertices, in the set that the base colour reads
     float alpha[3];    // of the vertices' colours
     uint triangle;     // among the casters
     uint material;     // row
-    uint unused0;
+    float scale;       // root mean square of its instance's scales; negative where it mirrors
 };
 SHARED_ASSERT(masked_caster_size, sizeof(MaskedCaster) == 48);
 
@@ -57,7 +57,8 @@ SHARED_STRUCT(ShadowView) {
     float4 shadow_from_view[3];  // xyz: a row of the rotation; w: of the camera's position [m]
     float extent;                // no caster's |x| + |y| + |z| is larger [m]
     uint levels;                 // of the hierarchy; 0: not known
-    uint unused0, unused1;
+    uint tint_root;  // node 0 of a second hierarchy, of surfaces that tint light; 0: there are none
+    uint unused0;
 };
 SHARED_ASSERT(shadow_view_size, sizeof(ShadowView) == 64);
 

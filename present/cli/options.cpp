@@ -38,10 +38,11 @@ void count_members(SharedOptions& options) {
     [[maybe_unused]] auto& [load_time, allow_outside_paths, load_memory, clips, variant, strict,
                             line_width] = load;
     [[maybe_unused]] auto& [renderer, width, height, lights, tails, range_budget, seed, tree_share,
-                            gbuffer, geometry, anisotropy, no_reuse, shading, shadows, shadow_rays,
-                            ambient, backdrop, mirrored, bloom, exposure, tone_curve, samples,
-                            auto_samples, want, grid, kernels, force_features, max_memory_bytes,
-                            memory_shares, band_rows, device, opened] = settings;
+                            gbuffer, geometry, anisotropy, no_reuse, shading, shadows,
+                            opaque_shadows, shadow_rays, ambient, backdrop, mirrored, bloom,
+                            exposure, tone_curve, samples, auto_samples, want, grid, kernels,
+                            force_features, max_memory_bytes, memory_shares, band_rows, device,
+                            opened] = settings;
     [[maybe_unused]] auto& [count, light_seed, radius, intensity, box] = lights;
     [[maybe_unused]] auto& [on, error, most] = auto_samples;
     [[maybe_unused]] auto& [display, radiance, shown_light, counts, shadow_counts, view, aovs,

@@ -98,6 +98,8 @@ void visit_surfaces(const SettingVisitor& f, SharedOptions& o) {
               kTime)
         .choice({"--shading", "", "", "How surfaces reflect light", kPanelPicture}, s.shading)
         .choice({"--shadows", "", "", "Which lights a surface sees", kPanelPicture}, s.shadows)
+        .flag("--opaque-shadows", s.opaque_shadows,
+              "Exact shadows of opaque surfaces only: not the tinted ones of glass", kPicture)
         .value(SettingKind::count,
                {"--shadow-rays", "N",
                 text_of(s.shadow_rays) + "; with --max-error as many as it takes",

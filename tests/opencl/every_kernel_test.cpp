@@ -77,7 +77,7 @@ void show_both_ways(const Gpu& gpu, const Tuning& tuning, Shade& shade, const Li
     const auto mapped = download(gpu, tonemap.enqueue(radiance, kExposure, timer));
     const DisplayTarget to = tonemap.target(radiance.view, kExposure);
     gpu.queue.enqueueFillBuffer(to.pixels.buffer(), cl_uint{0}, 0, mapped.size() * sizeof(uint));
-    shade.enqueue(lit, timer, {}, {}, to);
+    shade.enqueue(lit, timer, {}, to);
     EXPECT_EQ(download(gpu, to.pixels), mapped);
 }
 

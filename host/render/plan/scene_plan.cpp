@@ -151,7 +151,10 @@ ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings,
     }
     features = needed(features, shading, settings);
     ScenePlan plan;
-    plan.transmission = std::exchange(features.transmission, false);
+    const bool tints = features.alpha_blend && features.shadows && !settings.opaque_shadows &&
+                       settings.shadows == Shadows::exact;
+    plan.transmission = features.transmission;
+    features.transmission &= tints;  // shading reads the materials of glass
     static_cast<SceneFeatures&>(plan.kernels) = features;
     plan.kernels.shading = shading;
     plan.kernels.gbuffer = settings.gbuffer;
@@ -159,6 +162,7 @@ ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings,
     plan.kernels.fast_relaxed_math = settings.kernels.math == MathMode::fast_relaxed;
     plan.kernels.native_math = settings.kernels.math == MathMode::native;
     plan.kernels.sampled_shadows = features.shadows && settings.shadows == Shadows::sampled;
+    plan.kernels.tinted_shadows = tints;
     plan.kernels.light_tree = in_tree > 0;
     plan.kernels.tree_share = in_tree > 0 ? settings.tree_share : 0.0f;
     plan.kernels.half_light_colors = settings.kernels.light_colors == LightColors::half;

@@ -19,7 +19,7 @@ struct ScenePlan {
     KernelFeatures kernels;
     GBufferNeeds gbuffer;
     int gbuffer_bytes_per_pixel = 0;
-    bool transmission = false;  // of blended surfaces; those of `kernels` and `gbuffer` have none
+    bool transmission = false;  // of blended surfaces; `kernels` and `gbuffer` may leave it out
 
     /// The same for the surfaces that blend.
     ScenePlan of_layers() const;

@@ -24,35 +24,45 @@ struct ShadingOutput {
 constexpr int kShadowBits = 1;
 constexpr int kShadowRays = 2;
 
-BuildOptions all_options(const ShadingResources& resources, const KernelFeatures& features,
-                         const SurfaceFeatures& surfaces, const Tuning& tuning) {
-    BuildOptions options = resources.options();
-    if (!features.shadows) return options;
-    options.define("SHADOWS", kShadowRays).define("SAMPLED_SHADOWS", features.sampled_shadows);
-    define_casters(options, surfaces, tuning);
+// With some shadows. `way`: kShadow*.
+BuildOptions shadow_options(BuildOptions options, int way, const KernelFeatures& features,
+                            SurfaceFeatures surfaces, const Tuning& tuning) {
+    options.define("SHADOWS", way).define("SAMPLED_SHADOWS", features.sampled_shadows);
+    if (features.tinted_shadows) {
+        options.define("TINTED_SHADOWS", 1);
+        surfaces.masks = true;  // all that tint are masked casters
+        surfaces.anisotropy = 1;
+    }
+    if (way == kShadowRays || features.tinted_shadows) {
+        define_casters(options, surfaces, tuning);
+    }
     return options;
 }
 
 }  // namespace
 
-Shade::Shade(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
+Shade::Shade(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
+             const SurfaceFeatures& surfaces)
     : gpu_(gpu),
+      tuning_(tuning),
       features_(features),
+      surfaces_(surfaces),
       resources_(gpu, tuning, features, kShadeStage),
       variance_(gpu, kShadeStage) {}
 
 void Shade::build(std::optional<int> tone_curve) {
     if (kernels_.contains(tone_curve)) return;
-    BuildOptions options = resources_.options()
-                               .define("SHADOWS", features_.shadows ? kShadowBits : 0)
-                               .define("SAMPLED_SHADOWS", features_.sampled_shadows);
+    BuildOptions options = resources_.options();
+    if (features_.shadows) {
+        options = shadow_options(options, kShadowBits, features_, surfaces_, tuning_);
+    }
     if (tone_curve) options.define("DISPLAYED", 1).define("TONE_CURVE", *tone_curve);
     kernels_.try_emplace(tone_curve, gpu_, build_program(gpu_, kShadeStage, options), kShadeStage,
                          "shade");
 }
 
-Radiance Shade::enqueue(const LitPixels& lit, StageTimer& timer, const ShadowWords& shadows,
-                        const ShadowSamples& samples, const std::optional<DisplayTarget>& display) {
+Radiance Shade::enqueue(const LitPixels& lit, StageTimer& timer, const SeenInput& seen,
+                        const std::optional<DisplayTarget>& display) {
     const std::optional<int> tone_curve =
         display ? std::optional(display->tone_curve) : std::nullopt;
     build(tone_curve);
@@ -68,7 +78,12 @@ Radiance Shade::enqueue(const LitPixels& lit, StageTimer& timer, const ShadowWor
         out.variance = variance_.reserve(std::size_t{view.stride} * view.height);
     LitPixels stored = lit;
     stored.lights = resources_.stored_lights(lit.lights, timer);
-    kernel.enqueue(resources_.work_size(kernel, view), timer, stored, shadows, samples, out);
+    const auto items = resources_.work_size(kernel, view);
+    if (features_.tinted_shadows) {
+        kernel.enqueue(items, timer, stored, seen.words, seen.tints, seen.samples, out);
+    } else {
+        kernel.enqueue(items, timer, stored, seen.words, seen.samples, out);
+    }
     return {out.radiance, view};
 }
 
@@ -76,7 +91,10 @@ ShadeAll::ShadeAll(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& f
                    const SurfaceFeatures& surfaces)
     : resources_(gpu, tuning, features, kShadeStage),
       kernel_(gpu,
-              build_program(gpu, "shade_all", all_options(resources_, features, surfaces, tuning)),
+              build_program(gpu, "shade_all",
+                            features.shadows ? shadow_options(resources_.options(), kShadowRays,
+                                                              features, surfaces, tuning)
+                                             : resources_.options()),
               kShadeStage, "shade_all"),
       samples_shadows_(features.sampled_shadows),
       variance_(gpu, kShadeStage) {}

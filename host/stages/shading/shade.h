@@ -12,20 +12,27 @@ namespace kilolux {
 StageWork shade_work(const StageCounts& counts);
 inline constexpr StageInfo kShadeStage = {"shade", StageGroup::shading, shade_work};
 
+/// With KernelFeatures::shadows, which lights are seen.
+struct SeenInput {
+    ShadowWords words{};      // CastShadows' result for the lists
+    ShadowSamples samples{};  // of sampled shadows
+    ShadowInput tints{};      // with tinted_shadows: the casters, and where rays end
+};
+
 /// Radiance of every pixel from the lists of its active cluster, or its codes of a display.
 class Shade {
  public:
-    Shade(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
+    /// `surfaces`: with tinted_shadows, what of the casters' materials is read.
+    Shade(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
+          const SurfaceFeatures& surfaces = {});
 
     /// Builds the kernel that stores codes by TONE_CURVE_*, or, without one, the kernel that stores
     /// radiance. Otherwise the first enqueue() that needs it builds it. Throws Error.
     void build(std::optional<int> tone_curve);
 
-    /// Enqueues only. `shadows`: with KernelFeatures::shadows, CastShadows' result for the lists.
-    /// `display`: where the codes go, with the bits that Tonemap makes of the radiance; then there
-    /// is no radiance.
-    Radiance enqueue(const LitPixels& lit, StageTimer& timer, const ShadowWords& shadows = {},
-                     const ShadowSamples& samples = {},
+    /// Enqueues only. `display`: where the codes go, with the bits that Tonemap makes of the
+    /// radiance; then there is no radiance.
+    Radiance enqueue(const LitPixels& lit, StageTimer& timer, const SeenInput& seen = {},
                      const std::optional<DisplayTarget>& display = {});
 
     /// With sampled shadows, of the last enqueue(): the estimated variance of each pixel's
@@ -37,7 +44,9 @@ class Shade {
 
  private:
     Gpu gpu_;
+    Tuning tuning_;
     KernelFeatures features_;
+    SurfaceFeatures surfaces_;
     ShadingResources resources_;
     std::map<std::optional<int>, Kernel> kernels_;  // by tone curve; none: for radiance
     GrowingArray<float> variance_;

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// The share of a light that passes the surfaces which blend or transmit between it and VW points: a
+// product of colours. It is summed as logarithms in integers, so that the order of the surfaces
+// changes no bit.
+#ifndef KILOLUX_DEVICE_SHADOW_TINT_H
+#define KILOLUX_DEVICE_SHADOW_TINT_H
+#include "kernels/device/triangle.h"
+#include "kernels/shadows/masked_caster.h"
+#include "kernels/shadows/shadow_space.h"
+#include "kernels/shared/evaluate.h"
+#include "kernels/shared/surface_of.h"
+
+// Units of log2; the rounding of a surface's share is 3.4e-7 of it.
+#define TINT_UNIT (1.0f / (1 << 20))
+// The least share that is not black [log2], of a surface and of all.
+#define TINT_LEAST 60.0f
+
+// -log2 of the share of each channel at VW points, in units.
+typedef struct TintSums {
+    UV red, green, blue;
+} TintSums;
+
+static inline UV tint_units(FV share) {
+    FV least = fv(1.0f / (1 << 30)) * (1.0f / (1 << 30));
+    FV log2_share = log2_of(min(max(share, least), fv(1.0f)));
+    return lane_to_uint(fma(log2_share, fv(-1.0f / TINT_UNIT), fv(0.5f)));
+}
+
+static inline UV added_units(UV sum, UV units) {
+    return min(sum + units, (UV)((uint)(TINT_LEAST / TINT_UNIT)));
+}
+
+static inline FV share_of_units(UV units) {
+    return exp2_of_negative(lane_to_float(units) * -TINT_UNIT);
+}
+
+// The attributes of a caster at the weights of its corners; normals are the triangle's.
+static inline Fragment tint_fragment(const MaskedCaster* caster, CasterWeights w, FV3 normal) {
+    Fragment f = no_fragment();
+    f.normal = normal;
+#if HAS_TRANSMISSION
+    f.scale = fv(fabs(caster->scale));
+#endif
+#if HAS_TEXCOORDS
+    Footprint at;
+    at.u = weighted(caster->u, w);
+    at.v = weighted(caster->v, w);
+    at.u_dx = at.v_dx = at.u_dy = at.v_dy = fv(0.0f);
+#endif
+#if HAS_TEXCOORD0
+    f.texcoord0 = at;
+#endif
+#if HAS_TEXCOORD1
+    f.texcoord1 = at;
+#endif
+#if HAS_VERTEX_COLOR
+    f.color.w = weighted(caster->alpha, w);
+#endif
+    return f;
+}
+
+// Adds the surface of caster `number` at the points `passed`. to_light: of any length. Materials of
+// one side tint light that meets this side.
+static inline TintSums add_surface(TintSums sums, MaskedScene masked, global const float* casters,
+                                   uint number, CasterWeights w, FV3 to_light, MASK passed) {
+    MaskedCaster caster = masked.casters[number];
+    global const float* corners = casters + (ulong)caster.triangle * 9u;
+    float3 a = vload3(0, corners);
+    float3 n = unit_or_zero(cross_fma(vload3(1, corners) - a, vload3(2, corners) - a));
+    MaterialRef material = masked.materials + caster.material;
+    FV3 normal = fv3(fv(n.x), fv(n.y), fv(n.z));
+    FV facing = dot3(normal, to_light);
+    if ((material->flags & MATERIAL_DOUBLE_SIDED) == 0u) {
+        passed &= lane_mask(facing * caster.scale > fv(0.0f));
+        if (!lane_any(passed)) return sums;
+    }
+    normal = scale3(normal, lane_select(lane_mask(facing < fv(0.0f)), fv(-1.0f), fv(1.0f)));
+    SurfaceScene scene;
+    scene.materials = masked.materials;
+    scene.textures = masked.textures.rows;
+    scene.texels = masked.textures.texels;
+    Fragment f = tint_fragment(&caster, w, normal);
+    const Textures maps = textures_of(scene, material, &f);
+    Surface s = surface_of_material(&maps, &f);
+    s.position = scale3(to_light, fv(-1.0f));
+    FV3 share = share_behind(s, make_shading_point(s, false), coverage_of(scene, material, &f));
+    sums.red = select(sums.red, added_units(sums.red, tint_units(share.x)), passed);
+    sums.green = select(sums.green, added_units(sums.green, tint_units(share.y)), passed);
+    sums.blue = select(sums.blue, added_units(sums.blue, tint_units(share.z)), passed);
+    return sums;
+}
+#endif
