@@ -217,10 +217,10 @@ static inline MASK lit_by_row(const FoundTriangles* found, ShadowScene scene, Sh
                                u2 * found->forms.of[18][lane]);
 #if TINTED_SHADOWS
             if (scene.tints) {
-                FV3 to_light = splat3(light.at);
-                if (!light.is_direction) to_light = sub3(to_light, point);
-                *tints = add_surface(*tints, scene.masked, scene.casters, child & SHADOW_NUMBER, w,
-                                     to_light, shaded);
+                TintRay ray = {{u0, u1, u2}, w, splat3(light.at)};
+                if (!light.is_direction) ray.to_light = sub3(ray.to_light, point);
+                *tints = add_surface(*tints, scene.masked, scene.casters, child & SHADOW_NUMBER,
+                                     ray, shaded);
                 continue;
             }
 #endif

@@ -59,14 +59,33 @@ static inline Fragment tint_fragment(const MaskedCaster* caster, CasterWeights w
     return f;
 }
 
-// Adds the surface of caster `number` at the points `passed`. to_light: of any length. Materials of
-// one side tint light that meets this side.
+// Rays that may pass a triangle.
+typedef struct TintRay {
+    FV u[3];  // forms of its edges: at least 0 inside
+    CasterWeights weights;
+    FV3 to_light;  // of any length
+} TintRay;
+
+// The lanes inside the edge from a to b, whose form is u, or on it where the triangle owns it. The
+// form of the triangle beyond is exactly -u, and its edge runs from b to a: one of both counts.
+static inline MASK inside_edge(FV u, float3 a, float3 b) {
+    bool owns = a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+    return owns ? lane_mask(u >= fv(0.0f)) : lane_mask(u > fv(0.0f));
+}
+
+// Adds the surface of caster `number` at the points `passed`. Materials of one side tint light that
+// meets this side.
 static inline TintSums add_surface(TintSums sums, MaskedScene masked, global const float* casters,
-                                   uint number, CasterWeights w, FV3 to_light, MASK passed) {
+                                   uint number, TintRay ray, MASK passed) {
     MaskedCaster caster = masked.casters[number];
     global const float* corners = casters + (ulong)caster.triangle * 9u;
-    float3 a = vload3(0, corners);
-    float3 n = unit_or_zero(cross_fma(vload3(1, corners) - a, vload3(2, corners) - a));
+    float3 a = vload3(0, corners), b = vload3(1, corners), c = vload3(2, corners);
+    passed &=
+        inside_edge(ray.u[0], b, c) & inside_edge(ray.u[1], c, a) & inside_edge(ray.u[2], a, b);
+    if (!lane_any(passed)) return sums;
+    FV3 to_light = ray.to_light;
+    CasterWeights w = ray.weights;
+    float3 n = unit_or_zero(cross_fma(b - a, c - a));
     MaterialRef material = masked.materials + caster.material;
     FV3 normal = fv3(fv(n.x), fv(n.y), fv(n.z));
     FV facing = dot3(normal, to_light);

@@ -145,12 +145,57 @@ TEST(Glass, EveryShadingModelLetsLightThrough) {
     }
 }
 
-TEST(Glass, HasTheShadowsOfOpaqueSurfaces) {
-    RenderSettings settings = glass_settings();
-    settings.shadows = Shadows::exact;
-    const std::vector<double> found = glass_differences(glass_scene(), settings);
-    EXPECT_LT(quantile(found, 0.5), 2e-5);
-    EXPECT_LT(quantile(found, 0.98), 5e-4);
+TEST(Glass, CastsTintedShadowsOrNone) {
+    const Scene scene = glass_scene();
+    for (const bool opaque : {false, true}) {
+        RenderSettings settings = glass_settings();
+        settings.shadows = Shadows::exact;
+        settings.opaque_shadows = opaque;
+        const std::vector<double> found = glass_differences(scene, settings);
+        EXPECT_LT(quantile(found, 0.5), 2e-5) << opaque;
+        EXPECT_LT(quantile(found, 0.98), 5e-4) << opaque;
+    }
+}
+
+// A lamp before panes that darken a wall: colour^panes, in any order of the panes.
+TEST(Glass, SharesOfShadowsMultiply) {
+    Material wall;
+    wall.metallic = 0.0f;
+    wall.roughness = 1.0f;
+    Material red = glass({0.9f, 0.4f, 0.2f}), grey = glass(glm::vec3(0.5f));
+    for (Material* m : {&red, &grey}) m->ior = 1.0f;
+    grey.transmission = 0.0f;
+    grey.alpha_mode = AlphaMode::blend;
+    grey.base_color.w = 0.25f;
+    const auto picture_of = [&](const std::vector<Material>& panes, int lanes) {
+        Scene scene;
+        add_glass_pane(scene, wall, -1.0, 0.0);
+        double z = 0.0;
+        for (const Material& pane : panes) add_glass_pane(scene, pane, z += 0.1, 0.0);
+        SceneLight lamp;
+        lamp.position = {0.0, 0.0, 3.0};
+        lamp.intensity = glm::vec3(9.0f);
+        lamp.range = 20.0f;
+        scene.lights.push_back(lamp);
+        RenderSettings settings = small_settings(17, 17, 0);
+        settings.gbuffer = GBUFFER_FULL;
+        settings.shading = Shading::lambert;
+        settings.ambient = 0.0f;
+        settings.shadows = Shadows::exact;
+        settings.kernels.lanes = lanes;
+        // Below the panes, which are seen edge on.
+        return Renderer(scene, settings)
+            .render(look_at({0, 0, -0.2}, {0, 0, -1}, {0, 1, 0}, 0.5), 0.0)
+            .radiance;
+    };
+    const std::vector<float> bare = picture_of({}, 1);
+    const std::vector<float> tinted = picture_of({red, grey, red}, 1);
+    for (std::size_t i = 0; i < bare.size(); ++i) {
+        const double red_share = red.base_color[static_cast<int>(i % 3)];
+        ASSERT_NEAR(tinted[i], bare[i] * red_share * red_share * 0.75, 3e-6 * bare[i]) << i;
+    }
+    EXPECT_EQ(picture_of({grey, red, red}, 1), tinted);
+    EXPECT_EQ(picture_of({red, red, grey}, 4), tinted);
 }
 
 TEST(Glass, ListsAndAllLightsAreTheSameBits) {

@@ -239,4 +239,18 @@ Bvh::Bvh(std::vector<BvhTriangle> triangles) {
     for (const Item& item : builder.items) triangles_.push_back(triangles[item.triangle]);
 }
 
+void merge_on_edges(std::vector<RayHit>& hits, std::span<const BvhTriangle> triangles) {
+    constexpr double kSame = 1e-12;
+    const auto is_on_edge = [](const RayHit& hit) { return std::ranges::min(hit.weights) < kSame; };
+    std::ranges::sort(hits, {}, &RayHit::index);
+    for (std::size_t i = hits.size(); i-- > 1;) {
+        const auto is_twin = [&](const RayHit& other) {
+            return triangles[other.index].instance == triangles[hits[i].index].instance &&
+                   std::abs(other.t - hits[i].t) <= kSame * hits[i].t && is_on_edge(other);
+        };
+        const auto end = hits.begin() + static_cast<std::ptrdiff_t>(i);
+        if (is_on_edge(hits[i]) && std::any_of(hits.begin(), end, is_twin)) hits.erase(end);
+    }
+}
+
 }  // namespace kilolux

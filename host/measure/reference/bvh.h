@@ -6,6 +6,7 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "host/scene/scene.h"
@@ -31,6 +32,9 @@ struct RayHit {
     std::array<double, 3> weights{};  // barycentric, of the triangle's corners; sum 1
     std::uint32_t index = 0;          // into Bvh::triangles()
 };
+
+/// Leaves one of the hits of a ray on the common edge of two triangles of an instance.
+void merge_on_edges(std::vector<RayHit>& hits, std::span<const BvhTriangle> triangles);
 
 /// A bounding volume hierarchy over triangles: finds the nearest hit of a ray. Embree builds the
 /// hierarchy that the shadow kernels walk, in float32; this one shares no code with it.

@@ -52,6 +52,7 @@ ReferenceOptions reference_options(const Renderer& renderer, const Camera& camer
     ReferenceOptions out = reference_options(kernels, renderer.settings(), camera);
     if (kernels.shadows && casts_shadows) {
         out.shadows = std::make_shared<const ShadowCaster>(renderer.scene(), camera);
+        out.tinted_shadows = kernels.tinted_shadows;
     }
     return out;
 }

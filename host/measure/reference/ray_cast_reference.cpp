@@ -48,8 +48,7 @@ SurfaceHit RayCaster::hit_of(const RayHit& hit, const PixelRay& ray) const {
 // The opaque surface, if there is one: a `t` of infinity says that there is none; and those in
 // front of it that blend, from far to near.
 std::vector<RayHit> RayCaster::surfaces_along(const PixelRay& ray, const Camera& camera) const {
-    std::vector<RayHit> out(1);
-    out[0].t = std::numeric_limits<double>::infinity();
+    std::vector<RayHit> out;
     const auto stops = [&](const RayHit& candidate) {
         const SurfaceHit hit = hit_of(candidate, ray);
         if (!is_drawn(hit)) return false;
@@ -64,8 +63,10 @@ std::vector<RayHit> RayCaster::surfaces_along(const PixelRay& ray, const Camera&
                                       .t_min = camera.z_near,
                                       .t_max = camera.z_far},
                                      stops);
-    if (opaque) out[0] = *opaque;
-    std::erase_if(out, [&](const RayHit& hit) { return hit.t > out[0].t; });
+    merge_on_edges(out, bvh_.triangles());
+    const RayHit end = opaque.value_or(RayHit{.t = std::numeric_limits<double>::infinity()});
+    std::erase_if(out, [&](const RayHit& hit) { return hit.t >= end.t; });
+    out.push_back(end);
     std::ranges::sort(out, [](const RayHit& a, const RayHit& b) {
         return std::pair(a.t, a.index) > std::pair(b.t, b.index);
     });

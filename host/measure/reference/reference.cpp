@@ -38,15 +38,18 @@ glm::dvec3 direction_to_eye(const glm::dvec3& position, bool orthographic) {
     return -position / distance;
 }
 
-// Adds light that arrives with `irradiance` on a surface that faces it and sees it.
-template <typename Sees>
+// Adds light that would arrive with `irradiance` on a surface that faces it.
+// `passing()`: the share of it that does.
+template <typename Passing>
 void add_incident(Pixel& pixel, const SurfaceSample& surface, const glm::dvec3& to_light,
-                  const glm::dvec3& irradiance, const ReferenceOptions& options, const Sees& sees) {
+                  const glm::dvec3& irradiance, const ReferenceOptions& options,
+                  const Passing& passing) {
     pixel.scale.add(glm::abs(irradiance));
     const glm::dvec3 to_eye = direction_to_eye(surface.position, options.orthographic);
     const glm::dvec3 share = reference_reflection(surface, to_eye, to_light, options.shading);
-    if (share == glm::dvec3(0.0) || !sees()) return;
-    pixel.radiance.add(share * irradiance);
+    if (share == glm::dvec3(0.0)) return;
+    const glm::dvec3 passed = passing();
+    if (passed != glm::dvec3(0.0)) pixel.radiance.add(share * irradiance * passed);
 }
 
 Pixel shade(const SurfaceSample& surface, const ReferenceLights& lights,
@@ -63,7 +66,11 @@ Pixel shade(const SurfaceSample& surface, const ReferenceLights& lights,
         point = options.shadows->point_at(surface.position, surface.blended);
     for (const ReferenceDirectionalLight& light : lights.directional) {
         add_incident(pixel, surface, light.to_light, light.illuminance, options, [&] {
-            return !point || options.shadows->sees_direction(*point, light.to_light);
+            if (!point) return glm::dvec3(1.0);
+            const ShadowCaster& caster = *options.shadows;
+            return options.tinted_shadows
+                       ? caster.share_of_direction(*point, light.to_light, options.shading)
+                       : glm::dvec3(caster.sees_direction(*point, light.to_light));
         });
     }
     for (const ReferenceLight& light : lights.lights) {
@@ -71,8 +78,12 @@ Pixel shade(const SurfaceSample& surface, const ReferenceLights& lights,
         if (in.attenuation == 0.0) continue;
         ++pixel.lights;
         pixel.reaching += in.reaches;
-        add_incident(pixel, surface, in.to_light, light.intensity * in.attenuation, options,
-                     [&] { return !point || options.shadows->sees(*point, light.position); });
+        add_incident(pixel, surface, in.to_light, light.intensity * in.attenuation, options, [&] {
+            if (!point) return glm::dvec3(1.0);
+            const ShadowCaster& caster = *options.shadows;
+            return options.tinted_shadows ? caster.share(*point, light.position, options.shading)
+                                          : glm::dvec3(caster.sees(*point, light.position));
+        });
     }
     return pixel;
 }

@@ -34,6 +34,7 @@ struct ReferenceOptions {
     bool windowed = true;                // false: unbounded inverse square, no light has a range
     OnProgress progress{};
     std::shared_ptr<const ShadowCaster> shadows{};  // none: every light is seen
+    bool tinted_shadows = false;  // with shadows: surfaces that blend or transmit take their part
 };
 
 struct ReferencePicture {

@@ -2,6 +2,7 @@
 #include "host/measure/reference/shadow_caster.h"
 
 #include "host/measure/reference/hit_surface.h"
+#include "host/measure/reference/reference_brdf.h"
 
 namespace kilolux {
 namespace {
@@ -58,20 +59,68 @@ std::optional<ShadowPoint> ShadowCaster::point_at(const glm::dvec3& p_view, bool
     return out;
 }
 
-bool ShadowCaster::is_free(const ShadowPoint& from, const glm::dvec3& way, double end) const {
-    if (!(glm::dot(from.normal, way) > 0.0)) return false;
-    const Ray ray{from.position, way, kStart, end};
+bool ShadowCaster::is_free(const ShadowPoint& from, const Way& way) const {
+    if (!(glm::dot(from.normal, way.direction) > 0.0)) return false;
+    const Ray ray{from.position, way.direction, kStart, way.end};
     return !bvh_.nearest(
         ray, [&](const RayHit& hit) { return hit.index != from.triangle && hides(ray, hit); });
 }
 
-bool ShadowCaster::sees(const ShadowPoint& from, const glm::dvec3& p_view) const {
+glm::dvec3 ShadowCaster::share_at(const Ray& ray, const RayHit& hit, Shading model) const {
+    PixelRay pixel_ray;
+    pixel_ray.origin = ray.origin;
+    pixel_ray.direction = -ray.direction;  // light's
+    const BvhTriangle& triangle = bvh_.triangles()[hit.index];
+    const SurfaceHit surface{scene_, textures_, triangle, hit, pixel_ray};
+    const glm::dvec3 to_light = glm::normalize(ray.direction);
+    if (!material_of(surface).double_sided && !front_facing(surface)) return glm::dvec3(1.0);
+    SurfaceSample sample = surface_at(surface);
+    sample.normal = glm::normalize(glm::cross(triangle.corners[1] - triangle.corners[0],
+                                              triangle.corners[2] - triangle.corners[0]));
+    if (glm::dot(sample.normal, to_light) < 0.0) sample.normal = -sample.normal;
+    sample.coat_normal = sample.normal;
+    return reference_share_behind(sample, to_light, model);
+}
+
+glm::dvec3 ShadowCaster::share_on(const ShadowPoint& from, const Way& way, Shading model) const {
+    if (!is_free(from, way)) return glm::dvec3(0.0);
+    std::vector<RayHit> passed;
+    const Ray ray{from.position, way.direction, kStart, way.end};
+    bvh_.nearest(ray, [&](const RayHit& hit) {
+        if (hit.index != from.triangle && is_blended_at(hit)) passed.push_back(hit);
+        return false;
+    });
+    merge_on_edges(passed, bvh_.triangles());
+    glm::dvec3 share(1.0);
+    for (const RayHit& hit : passed) share *= share_at(ray, hit, model);
+    return share;
+}
+
+ShadowCaster::Way ShadowCaster::way_to(const ShadowPoint& from, const glm::dvec3& p_view) const {
     const glm::dvec3 light = camera_.position + camera_.world_from_view * p_view;
-    return is_free(from, light - from.position, 1.0 - kStart);
+    return {light - from.position, 1.0 - kStart};
+}
+
+ShadowCaster::Way ShadowCaster::way_along(const glm::dvec3& to_light) const {
+    return {length_ * (camera_.world_from_view * to_light), 1.0};
+}
+
+bool ShadowCaster::sees(const ShadowPoint& from, const glm::dvec3& p_view) const {
+    return is_free(from, way_to(from, p_view));
 }
 
 bool ShadowCaster::sees_direction(const ShadowPoint& from, const glm::dvec3& to_light) const {
-    return is_free(from, length_ * (camera_.world_from_view * to_light), 1.0);
+    return is_free(from, way_along(to_light));
+}
+
+glm::dvec3 ShadowCaster::share(const ShadowPoint& from, const glm::dvec3& p_view,
+                               Shading model) const {
+    return share_on(from, way_to(from, p_view), model);
+}
+
+glm::dvec3 ShadowCaster::share_of_direction(const ShadowPoint& from, const glm::dvec3& to_light,
+                                            Shading model) const {
+    return share_on(from, way_along(to_light), model);
 }
 
 }  // namespace kilolux

@@ -6,6 +6,7 @@
 
 #include "host/measure/reference/bvh.h"
 #include "host/measure/reference/texture_sampler.h"
+#include "host/render/settings.h"
 #include "host/scene/camera.h"
 #include "host/scene/scene.h"
 
@@ -19,8 +20,9 @@ struct ShadowPoint {
 };
 
 /// Finds which lights points see, by rays in double, as the reference of the kernels' shadows.
-/// Every triangle hides from both sides, but those of materials that blend; alpha masks are sampled
-/// at their finest level. A point sees no light on the other side of its own triangle.
+/// Every triangle hides from both sides; alpha masks are sampled at their finest level. Those that
+/// blend or transmit hide nothing, but let a share pass: see share(). A point sees no light on the
+/// other side of its own triangle.
 class ShadowCaster {
  public:
     /// Builds the hierarchy. Keeps a reference to the scene.
@@ -30,13 +32,29 @@ class ShadowCaster {
     /// none if it sees nothing there. `blended`: among the surfaces that blend, else the others.
     std::optional<ShadowPoint> point_at(const glm::dvec3& p_view, bool blended = false) const;
 
-    /// Whether the way from the point to the light at `p_view` [m] is free.
+    /// Whether nothing hides the light at `p_view` [m] from the point.
     bool sees(const ShadowPoint& from, const glm::dvec3& p_view) const;
     /// The same for light from a direction, in view space.
     bool sees_direction(const ShadowPoint& from, const glm::dvec3& to_light) const;
 
+    /// The share of a light that comes to the point: 0 if it is hidden, else by `model` the product
+    /// over the surfaces between that blend or transmit, with their triangle's normal; those of one
+    /// side count where the light meets it.
+    glm::dvec3 share(const ShadowPoint& from, const glm::dvec3& p_view, Shading model) const;
+    glm::dvec3 share_of_direction(const ShadowPoint& from, const glm::dvec3& to_light,
+                                  Shading model) const;
+
  private:
-    bool is_free(const ShadowPoint& from, const glm::dvec3& way, double end) const;
+    // The way in the world from a point to a light, as long as `end` times `direction`.
+    struct Way {
+        glm::dvec3 direction;
+        double end;
+    };
+    Way way_to(const ShadowPoint& from, const glm::dvec3& p_view) const;
+    Way way_along(const glm::dvec3& to_light) const;
+    bool is_free(const ShadowPoint& from, const Way& way) const;
+    glm::dvec3 share_on(const ShadowPoint& from, const Way& way, Shading model) const;
+    glm::dvec3 share_at(const Ray& ray, const RayHit& hit, Shading model) const;
     bool hides(const Ray& ray, const RayHit& hit) const;
     bool is_blended_at(const RayHit& hit) const;
 

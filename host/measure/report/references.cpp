@@ -58,6 +58,7 @@ ReferenceOptions ReportReferences::options_of(const RenderSettings& settings, bo
     out.windowed = windowed;
     out.progress = [this](double) { on_step_(); };
     if (settings.shadows != Shadows::off) out.shadows = shadows_;
+    out.tinted_shadows = plan.tinted_shadows;
     return out;
 }
 
