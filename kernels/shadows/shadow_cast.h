@@ -187,18 +187,11 @@ typedef struct FoundTriangles {
     const uint* children;  // [VW]
 } FoundTriangles;
 
-// With TINTED_SHADOWS, where the walk sums.
-#if TINTED_SHADOWS
-#define TINTS_PARAMETER , TintSums* tints
-#define TINTS_OF(points) , &(points)->tints
-#else
-#define TINTS_PARAMETER
-#define TINTS_OF(points)
-#endif
-
 // The part of `lit`, of a row's points, that none of the triangles hides from the light.
 static inline MASK lit_by_row(const FoundTriangles* found, ShadowScene scene, ShadowLight light,
-                              FV3 edge_point, FV3 point, MASK lit TINTS_PARAMETER) {
+                              ShadowPoints* points, uint row, MASK lit) {
+    FV3 edge_point = load_edge_points(points, row);
+    FV3 point = load_points(points, row);
     for (uint bits = found->wanted; bits != 0u; bits &= bits - 1u) {
         uint lane = lowest_bit(bits);
         FV u0 = form_at(&found->forms, 0, lane, edge_point);
@@ -219,8 +212,8 @@ static inline MASK lit_by_row(const FoundTriangles* found, ShadowScene scene, Sh
             if (scene.tints) {
                 TintRay ray = {{u0, u1, u2}, w, splat3(light.at)};
                 if (!light.is_direction) ray.to_light = sub3(ray.to_light, point);
-                *tints = add_surface(*tints, scene.masked, scene.casters, child & SHADOW_NUMBER,
-                                     ray, shaded);
+                points->tints = add_surface(points->tints, scene.masked, scene.casters,
+                                            child & SHADOW_NUMBER, ray, shaded);
                 continue;
             }
 #endif
@@ -239,8 +232,7 @@ static inline void shade_rows(ShadowPoints* points, const FoundTriangles* found,
         uint row = points->rows[i];
         MASK lit = lit_of(points, row);
         ADD_COUNT(points, points, popcount(found->wanted) * lane_count(lit));
-        lit = lit_by_row(found, scene, light, load_edge_points(points, row),
-                         load_points(points, row), lit TINTS_OF(points));
+        lit = lit_by_row(found, scene, light, points, row, lit);
         lane_store(KX_CONCAT(as_, FV)(lit), points->lit + row * VW);
         points->rows[count] = (uchar)row;
         count += lane_any(lit) ? 1u : 0u;

@@ -3,8 +3,8 @@
 //
 // Compile-time switches: SHADING, HAS_METALLIC, HAS_SPECULAR (KHR_materials_ior and
 // KHR_materials_specular), HAS_CLEARCOAT (KHR_materials_clearcoat), HAS_SHEEN
-// (KHR_materials_sheen), HAS_TRANSMISSION (KHR_materials_transmission), HAS_UNLIT. Features that the scene lacks are not compiled in; compiling
-// them in changes no bit of the radiance.
+// (KHR_materials_sheen), HAS_TRANSMISSION (KHR_materials_transmission), HAS_UNLIT. Features that
+// the scene lacks are not compiled in; compiling them in changes no bit of the radiance.
 #ifndef KILOLUX_SHARED_SURFACE_H
 #define KILOLUX_SHARED_SURFACE_H
 #include "kernels/shared/evaluate_modes.h"

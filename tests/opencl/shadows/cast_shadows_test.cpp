@@ -157,7 +157,8 @@ CastFrame cast_frame(int lanes, int group, std::uint32_t light_count = 70, uint 
     out.counts = counting.counts();
     EXPECT_EQ(download(gpu, words.words, cast.words()), out.words) << "counting changes a bit";
     Shade shade(gpu, tuning, features);
-    out.listed = download<float>(gpu, shade.enqueue(lists.at(gbuffer), timer, {words}).planes, size);
+    out.listed =
+        download<float>(gpu, shade.enqueue(lists.at(gbuffer), timer, {words}).planes, size);
     ShadeAll shade_all(gpu, tuning, features);
     out.all =
         download<float>(gpu, shade_all.enqueue(gbuffer, lists.lights, timer, input).planes, size);
