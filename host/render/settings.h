@@ -108,8 +108,8 @@ struct RenderSettings {
     Shading shading = Shading::automatic;
     Shadows shadows = Shadows::off;
     bool opaque_shadows = false;  // exact ones: not of surfaces that blend or transmit
-    int shadow_rays = 4;    // of sampled shadows: most rays a pixel, on average
-    float ambient = 0.02f;  // radiance that falls in from everywhere
+    int shadow_rays = 4;          // of sampled shadows: most rays a pixel, on average
+    float ambient = 0.02f;        // radiance that falls in from everywhere
     // Seen where no surface covers a pixel; null: black. It lights no surface.
     std::shared_ptr<const Environment> background;
     // Lights surfaces by prefiltered maps, beside all other lights; null: nothing. The
