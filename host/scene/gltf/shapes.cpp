@@ -149,7 +149,7 @@ MeshPlan plan_primitive(const GltfDocument& document, const GltfMaterials& mater
                               element_name("primitives", primitive_index);
     const auto& primitive = document.model.meshes[shape.mesh].primitives[primitive_index];
     return plan_mesh(document, open_primitive(document, primitive, where),
-                     shading_of(materials, primitive), shape.moves);
+                     shading_of(materials, primitive));
 }
 
 Mesh build_primitive(const GltfDocument& document, const GltfMaterials& materials,

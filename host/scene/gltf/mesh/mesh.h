@@ -26,14 +26,14 @@ struct MeshPlan {
     PrimitiveArrays arrays;               // without its corners
     std::vector<std::uint32_t> elements;  // of the attributes, by vertex
     std::vector<std::uint32_t> indices;   // of vertices
-    // By vertex, the first of those that share a tangent: equal in the file and deformed alike.
-    // Empty where the mesh is made once; build_mesh() groups its vertices then.
+    // By vertex, one that names those that share a tangent, made at rest: without the weights of
+    // morph targets and without a skin. Empty where no tangents are derived.
     std::vector<std::uint32_t> tangent_groups;
 };
 
-/// Charges the memory of the mesh, too. `moves`: build_mesh() makes it for many times.
-MeshPlan plan_mesh(const GltfDocument& document, PrimitiveArrays arrays, const MeshShading& shading,
-                   bool moves);
+/// Charges the memory of the mesh, too.
+MeshPlan plan_mesh(const GltfDocument& document, PrimitiveArrays arrays,
+                   const MeshShading& shading);
 
 /// Converts a primitive. Vertices that no triangle uses are left out; without normals every
 /// triangle gets its own vertices and its flat normal. Points and segments stay what they are:
