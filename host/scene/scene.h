@@ -100,8 +100,7 @@ struct Mesh {
     std::string name;
     std::vector<glm::vec3> positions;  // [m], object space
     std::vector<glm::vec3> normals;    // unit; the loader derives flat ones when the file has none
-    std::vector<glm::vec4>
-        tangents;  // xyz unit, w handedness +-1; present where the material has tangent_map()
+    std::vector<glm::vec4> tangents;   // xyz unit, w handedness +-1; present where needs_tangents()
     std::array<std::vector<glm::vec2>, 2> texcoords;
     std::vector<glm::vec4> colors;       // linear, multiplies base_color
     std::vector<std::uint32_t> indices;  // 3 per triangle, each < positions.size()

@@ -263,8 +263,11 @@ TEST(LoadSceneMikkTSpace, TrianglesAtRandomHaveTheTangentsOfASecondDerivation) {
             const glm::vec2 uv(position.x * 0.5f, below(4) == 0 ? 0.25f : position.y * 0.5f);
             triangles.vertices.push_back({position, normal, uv});
         }
-        for (int i = 0; i < 180; ++i) {
-            triangles.indices.push_back(static_cast<std::uint16_t>(below(30)));
+        for (int t = 0; t < 60; ++t) {
+            const int a = below(30), b = (a + 1 + below(14)) % 30, c = (b + 1 + below(14)) % 30;
+            for (const int v : {a, b, c}) {
+                triangles.indices.push_back(static_cast<std::uint16_t>(v));
+            }
         }
         compared += compare(triangles);
         if (HasFailure()) return;

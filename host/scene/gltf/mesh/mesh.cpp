@@ -100,7 +100,7 @@ void read_attributes(Mesh& mesh, const AttributeReader& reader, const MeshShadin
     for (std::size_t set = 0; set < 2; ++set) {
         mesh.texcoords[set] = reader.read<glm::vec2>(texcoord_name(shading, set), {2});
     }
-    if (shading.tangent_map.present() && has_tangents(attributes)) {
+    if (shading.needs_tangents && has_tangents(attributes)) {
         mesh.tangents = reader.read<glm::vec4>("TANGENT", {4});
     }
 }
@@ -159,7 +159,7 @@ MeshPlan plan_mesh(const GltfDocument& document, PrimitiveArrays arrays,
     document.budget->charge(plan.elements.size(), kVertexBytes, plan.arrays.where);
     report_rounding(document, plan);
     const bool derives_tangents =
-        is_surface && shading.tangent_map.present() && !has_tangents(plan.arrays.attributes);
+        is_surface && shading.needs_tangents && !has_tangents(plan.arrays.attributes);
     if (!derives_tangents) return plan;
     document.budget->charge(plan.indices.size(), kTangentGroupBytes, plan.arrays.where);
     group_tangents(shading, plan);
