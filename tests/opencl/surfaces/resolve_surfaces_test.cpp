@@ -15,6 +15,7 @@
 #include "host/stages/surfaces/decode_gbuffer.h"
 #include "host/stages/surfaces/raster_triangles.h"
 #include "kernels/shared/gbuffer.h"
+#include "kernels/shared/mips.h"
 #include "tests/support/full.h"
 #include "tests/support/test_gpu.h"
 
