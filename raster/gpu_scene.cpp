@@ -92,8 +92,7 @@ void GpuScene::upload_images(const TextureTable& table) {
     std::vector<std::size_t> first_texels;
     for (const auto& [encoded, first] : table.images()) {
         const Image& image = scene_.images[static_cast<std::size_t>(encoded.first)];
-        const auto levels = mip_levels(image.rgba, static_cast<uint>(image.width),
-                                       static_cast<uint>(image.height), encoded.second);
+        const auto levels = mip_levels(image, encoded.second);
         images_.push_back(
             make_texels(image.name.c_str(), GL_RG32UI, sizeof(std::uint64_t), bytes_of(levels)));
         first_texels.push_back(first);

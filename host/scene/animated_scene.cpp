@@ -121,7 +121,7 @@ AnimatedScene::AnimatedScene(const std::filesystem::path& path, const LoadOption
     scene_.variants = list_variants(file.document);
     scene_.webs = read_profiles(file.document);
     place();
-    scene_.images = decode_images(file.document, file.materials.images, progress);
+    scene_.images = decode_images(file.document, file.materials, progress);
     for (Image& image : roughness_images(file.document, file.materials, scene_.images)) {
         scene_.images.push_back(std::move(image));
     }

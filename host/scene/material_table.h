@@ -107,8 +107,8 @@ inline constexpr auto kMaterialFactors = std::to_array<MaterialFactor>({
     {"extensions.KHR_materials_volume.attenuationColor", &Material::attenuation_color, nullptr, 0},
 });
 
-/// The map by whose texture coordinates tangents are made: the first one in tangent space. Not
-/// present where the material needs no tangents.
+/// The map by whose texture coordinates tangents are made: the first one in tangent space, or the
+/// first set of coordinates where there is none.
 inline const TextureUse& tangent_map(const Material& material) {
     for (const MaterialMap& map : kMaterialMaps) {
         const TextureUse& use = material.*map.member;
@@ -116,6 +116,8 @@ inline const TextureUse& tangent_map(const Material& material) {
     }
     return material.normal_texture;
 }
+
+inline bool needs_tangents(const Material& material) { return tangent_map(material).present(); }
 
 /// Numbers of a factor: 1, 3 or 4.
 constexpr std::size_t factor_length(const MaterialFactor& factor) {

@@ -12,12 +12,15 @@
 
 namespace kilolux {
 
-/// An 8-bit RGBA image, row 0 on top. The slot that uses it decides whether it is sRGB.
+/// An RGBA image of 8 or of 16 bits a channel, row 0 on top: one of its arrays is empty. The slot
+/// that uses it decides whether 8 bits are sRGB; 16 bits are linear.
 struct Image {
     std::string name;
     int width = 0;                   // [pixel], > 0
     int height = 0;                  // [pixel], > 0
     std::vector<std::uint8_t> rgba;  // 4 * width * height
+    std::vector<std::uint16_t> rgba16{};
+    std::size_t bytes() const { return rgba.size() + sizeof(std::uint16_t) * rgba16.size(); }
 };
 
 enum class Wrap { repeat, clamp, mirror };
@@ -106,8 +109,7 @@ struct Mesh {
     std::string name;
     std::vector<glm::vec3> positions;  // [m], object space
     std::vector<glm::vec3> normals;    // unit; the loader derives flat ones when the file has none
-    std::vector<glm::vec4>
-        tangents;  // xyz unit, w handedness +-1; present where the material has tangent_map()
+    std::vector<glm::vec4> tangents;   // xyz unit, w handedness +-1; present where needs_tangents()
     std::array<std::vector<glm::vec2>, 2> texcoords;
     std::vector<glm::vec4> colors;       // linear, multiplies base_color
     std::vector<std::uint32_t> indices;  // 3 per triangle, each < positions.size()

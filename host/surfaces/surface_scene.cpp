@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "host/base/formats/mips.h"
+#include "host/scene/rows/mip_levels.h"
 #include "host/scene/rows/texture_table.h"
 #include "host/scene/rows/vertex_rows.h"
 #include "host/stages/surfaces/build_mips.h"
@@ -26,7 +27,7 @@ void upload_texels(const Gpu& gpu, const Tuning& tuning, const Scene& scene,
         const Image& image = scene.images[static_cast<std::size_t>(encoded.first)];
         TextureRow row{};
         place_mips(row, static_cast<uint>(image.width), static_cast<uint>(image.height), first);
-        mips.enqueue(image.rgba, encoded.second, row, texels);
+        mips.enqueue(first_level(image, encoded.second), row, texels);
     }
     gpu.queue.finish();
 }

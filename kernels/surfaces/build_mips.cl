@@ -5,21 +5,6 @@
 
 #include "kernels/shared/mips.h"
 
-// Level 0 from an 8-bit image.
-kernel void mip_first(global const uchar4* restrict image,    // [count]
-                      global const ushort* restrict decoded,  // [256]: of a colour's code
-                      uint count,
-                      uint first,                     // of the level, in texels
-                      global ulong* restrict texels)  // out
-{
-    uint i = get_global_id(0);
-    if (i >= count) return;
-    uchar4 code = image[i];
-    // 257: 255 is 65535.
-    texels[first + i] =
-        make_texel(decoded[code.x], decoded[code.y], decoded[code.z], 257u * (uint)code.w);
-}
-
 kernel void mip_next(global ulong* texels,  // in and out
                      uint above_first, uint above_width, uint above_height, uint first) {
     uint width = max(above_width / 2u, 1u);

@@ -90,6 +90,14 @@ TEST(TextureSampler, SrgbIsDecodedBeforeFiltering) {
     EXPECT_NEAR(v.w, 0.5, 1e-12) << "alpha is linear";
 }
 
+TEST(TextureSampler, ReadsAllBitsOf16) {
+    Scene scene = scene_of(2, 1, {});
+    scene.images[0].rgba16 = {32776, 1, 65535, 65535, 32778, 3, 65535, 0};
+    EXPECT_NEAR(at(scene, {0.25, 0.5}).x * 65535, 32776, 1e-9);
+    EXPECT_NEAR(at(scene, {0.25, 0.5}, 2.0).x * 65535, 32777, 0.01);
+    EXPECT_NEAR(at(scene, {0.25, 0.5}, 2.0).y * 65535, 2, 0.01);
+}
+
 TEST(TextureSampler, MipLevelsAverageTwoByTwo) {
     const Scene scene = scene_of(4, 4, ramp(4, 4));
     // Level 1 at its first texel: columns 0 and 1, rows 0 and 1; level 2 is the mean of all.

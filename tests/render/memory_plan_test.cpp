@@ -37,6 +37,18 @@ TEST(MemoryPlan, DeviceBuffersHoldTheScenesOwnLightsToo) {
     EXPECT_EQ(own.device_bytes, generated.device_bytes);
 }
 
+// 2^18 pixels, with a third more for mip levels.
+TEST(MemoryPlan, ImagesOf16BitsTakeTwice) {
+    Scene scene = make_generated_scene("plain");
+    const std::uint64_t none = plan(scene, small_settings(64, 64, 0)).bytes;
+    constexpr std::size_t kSamples = std::size_t{4} << 18;
+    scene.images.push_back({"narrow", 512, 512, std::vector<std::uint8_t>(kSamples)});
+    const std::uint64_t narrow = plan(scene, small_settings(64, 64, 0)).bytes - none;
+    EXPECT_GE(narrow, kSamples * 4 / 3);
+    scene.images[0] = {"wide", 512, 512, {}, std::vector<std::uint16_t>(kSamples)};
+    EXPECT_EQ(plan(scene, small_settings(64, 64, 0)).bytes - none, 2 * narrow);
+}
+
 TEST(MemoryPlan, DeviceBuffersHoldTheWholePictureOfBloom) {
     const Scene scene = make_generated_scene("plain");
     RenderSettings settings = small_settings(1024, 1024, 100);

@@ -8,9 +8,11 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "host/base/error.h"
 #include "host/scene/generated/scenes.h"
+#include "tests/scene/expect_near.h"
 #include "tests/scene/export_scenes.h"
 #include "tests/support/box_scene.h"
 #include "tests/support/gltf_compressed.h"
@@ -91,9 +93,9 @@ TEST(AnimatedScene, IsWhatLoadingAtEachTimeGives) {
     EXPECT_NE(scene_difference(load_scene(path, {0.5}), load_scene(path, {1.0})), "");
 }
 
-// Two quads with a normal map, whose u runs along +x and along +y. Vertex 0 of the second is equal
-// to vertex 0 of the first, but for `offset` along z. A morph target moves the second quad by
-// `way` along z from second 0 to 1.
+// Two quads with a normal map that meet in an edge, whose u runs along +x and along (1, -1, 0). The
+// edge's vertices are given twice; those of the second quad are `offset` along z from those of the
+// first, and a morph target moves the second quad by `way` along z from second 0 to 1.
 GltfBuilder two_quads_with_normal_map(float offset, float way) {
     GltfBuilder file = quad_with_normal_map();
     const float o = offset;
@@ -103,7 +105,8 @@ GltfBuilder two_quads_with_normal_map(float offset, float way) {
                                               0, 0, o, 0, 1, o, -1, 1, o, -1, 0, o})},
         {"NORMAL", file.add_floats("VEC3", {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1,
                                             0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1})},
-        {"TEXCOORD_0", file.add_floats("VEC2", {0, 1, 1, 1, 1, 0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0})}};
+        {"TEXCOORD_0",
+         file.add_floats("VEC2", {0, 1, 1, 1, 1, 0, 0, 0, 0, 1, 0, 0, -1, 1, -1, 2})}};
     primitive["indices"] = file.add_indices({0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7});
     primitive["targets"] = {
         {{"POSITION", file.add_floats("VEC3", {0, 0, 0,   0, 0, 0,   0, 0, 0,   0, 0, 0,
@@ -115,12 +118,14 @@ GltfBuilder two_quads_with_normal_map(float offset, float way) {
     return file;
 }
 
-// Vertices share a tangent where they are equal in the file and stay equal.
+const float kMeanX = std::cos(std::numbers::pi_v<float> / 8);  // of the directions of both quads
+
+// Vertices share a tangent where they are equal at rest.
 TEST(AnimatedScene, VerticesShareATangentAtAllTimesOrAtNone) {
     const struct {
         float offset, way;
         bool shared;
-    } cases[] = {{0, 0, true}, {0, 2, false}, {2, -2, false}};
+    } cases[] = {{0, 0, true}, {0, 2, true}, {2, -2, false}};
     const TempFolder folder;
     const auto path = folder.path() / "q.glb";
     for (const auto& c : cases) {
@@ -130,10 +135,28 @@ TEST(AnimatedScene, VerticesShareATangentAtAllTimesOrAtNone) {
             scene.set_time(time);
             const std::vector<glm::vec4>& tangents = scene.scene().meshes.at(0).tangents;
             EXPECT_EQ(tangents.at(0) == tangents.at(4), c.shared) << c.offset << " at " << time;
-            EXPECT_NEAR(tangents[0].x, c.shared ? std::sqrt(0.5f) : 1.0f, 1e-6f);
+            EXPECT_NEAR(tangents[0].x, c.shared ? kMeanX : 1.0f, 1e-6f);
             EXPECT_EQ(scene_difference(scene.scene(), load_scene(path, {time})), "") << time;
         }
     }
+}
+
+TEST(AnimatedScene, ASkinCarriesTheTangentsOfTheRestPose) {
+    GltfBuilder file = two_quads_with_normal_map(0, 0);
+    json& primitive = file.primitive();
+    primitive.erase("targets");
+    file.root.erase("animations");
+    primitive["attributes"]["JOINTS_0"] =
+        file.add_accessor(Blob(4 * 8, 0), {kUnsignedByte, "VEC4", 8, false, 0});
+    std::vector<float> weights(4 * 8, 0.0f);
+    for (std::size_t v = 0; v < 8; ++v) weights[4 * v] = 1.0f;
+    primitive["attributes"]["WEIGHTS_0"] = file.add_floats("VEC4", weights);
+    file.root["nodes"][0]["skin"] = 0;
+    const int joint = file.add_node({{"scale", {1, 4, 1}}});
+    file.add("skins", {{"joints", {joint}}});
+    const glm::vec3 rest(kMeanX, -std::sqrt(1.0f - kMeanX * kMeanX), 0.0f);
+    expect_near(glm::vec3(load(file).meshes.at(0).tangents.at(0)),
+                glm::normalize(rest * glm::vec3(1, 4, 1)));
 }
 
 TEST(AnimatedScene, RevisionsSayWhatChanged) {

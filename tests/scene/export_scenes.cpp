@@ -45,7 +45,7 @@ Material everything_material() {
     m.clearcoat_texture = {1, 0, glm::mat3(1.0f)};
     m.clearcoat_roughness = 0.1f;
     m.clearcoat_roughness_texture = {1, 1, glm::mat3(1.0f)};
-    m.clearcoat_normal_texture = {1, 0, glm::mat3(1.0f)};
+    m.clearcoat_normal_texture = {2, 0, glm::mat3(1.0f)};
     m.clearcoat_normal_scale = 0.7f;
     m.sheen_color = {0.3f, 0.2f, 0.9f};
     m.sheen_color_texture = {0, 1, glm::mat3(1.0f)};
@@ -170,7 +170,7 @@ struct Materials {
         const Image& j = b.images.at(static_cast<std::size_t>(t.image));
         return u.uv_set == v.uv_set && u.uv_from_texcoord == v.uv_from_texcoord &&
                same_sampler(s.sampler, t.sampler) && i.width == j.width && i.height == j.height &&
-               i.rgba == j.rgba;
+               i.rgba == j.rgba && i.rgba16 == j.rgba16;
     }
 
     std::string texture_difference(const Material& m, const Material& n) const {
@@ -288,13 +288,15 @@ std::string list_difference(const char* name, const std::vector<T>& a, const std
 Scene scene_of_everything() {
     Scene scene;
     scene.name = "everything";
-    scene.images = {checker("opaque", 255), checker("see-through", 100)};
+    scene.images = {checker("opaque", 255),
+                    checker("see-through", 100),
+                    {"slopes", 2, 1, {}, {32776, 32760, 65535, 257, 1, 2, 3, 40000}}};
     Sampler plain;
     plain.wrap_s = Wrap::mirror;
     plain.wrap_t = Wrap::clamp;
     plain.magnify = Filter::nearest;
     plain.mipmaps = false;
-    scene.textures = {{1, {}}, {0, plain}};
+    scene.textures = {{1, {}}, {0, plain}, {2, {}}};
     scene.materials = {everything_material(), unlit_material(), Material{}};
     scene.meshes = {full_triangle(), triangle(-1), triangle(1), triangle(2)};
     for (std::size_t m = 1; m < scene.meshes.size(); ++m) scene.meshes[m].indices = {0, 1, 2};

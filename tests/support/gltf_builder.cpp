@@ -91,6 +91,18 @@ std::string mesh_defect(const Mesh& mesh, std::size_t material_count) {
     return "";
 }
 
+Blob encode_samples(const std::string& format, int width, int channels, SampleType type,
+                    const Blob& bytes) {
+    const std::size_t stride = static_cast<std::size_t>(channels) * size_of(type);
+    const std::size_t row = static_cast<std::size_t>(width) * stride;
+    ImageLayout layout{width, static_cast<int>(bytes.size() / row), {}};
+    const char* const names[] = {"R", "G", "B", "A"};
+    for (int c = 0; c < channels; ++c) {
+        layout.channels.push_back({channels == 1 ? "Y" : names[c], type});
+    }
+    return encode_pixels("image", format, layout, bytes, stride);
+}
+
 }  // namespace
 
 void write_file(const std::filesystem::path& file, const Blob& bytes) {
@@ -228,13 +240,12 @@ std::string load_error(const GltfBuilder& builder) {
 }
 
 Blob encode_image(const std::string& format, int width, int channels, const Blob& pixels) {
-    const auto row = static_cast<std::size_t>(width * channels);
-    ImageLayout layout{width, static_cast<int>(pixels.size() / row), {}};
-    const char* const names[] = {"R", "G", "B", "A"};
-    for (int c = 0; c < channels; ++c) {
-        layout.channels.push_back({channels == 1 ? "Y" : names[c], SampleType::uint8});
-    }
-    return encode_pixels("image", format, layout, pixels, static_cast<std::size_t>(channels));
+    return encode_samples(format, width, channels, SampleType::uint8, pixels);
+}
+
+Blob encode_deep_image(const std::string& format, int width, int channels,
+                       const std::vector<std::uint16_t>& pixels) {
+    return encode_samples(format, width, channels, SampleType::uint16, bytes_of(pixels));
 }
 
 std::vector<glm::dvec3> world_positions(const Scene& scene, std::size_t instance) {
@@ -264,7 +275,8 @@ std::string scene_defect(const Scene& scene) {
     for (const Image& image : scene.images) {
         const auto pixels =
             static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-        if (image.width < 1 || image.height < 1 || image.rgba.size() != 4 * pixels) {
+        if (image.width < 1 || image.height < 1 ||
+            image.rgba.size() + image.rgba16.size() != 4 * pixels) {
             return "image of a wrong size";
         }
     }

@@ -80,6 +80,10 @@ std::string load_error(const std::filesystem::path& file, const LoadOptions& opt
 /// 8-bit pixels as the bytes of a file ("png", "jpeg", "targa", ...).
 Blob encode_image(const std::string& format, int width, int channels, const Blob& pixels);
 
+/// The same of 16 bits a channel.
+Blob encode_deep_image(const std::string& format, int width, int channels,
+                       const std::vector<std::uint16_t>& pixels);
+
 /// Positions of an instance's vertices in the world.
 std::vector<glm::dvec3> world_positions(const Scene& scene, std::size_t instance = 0);
 

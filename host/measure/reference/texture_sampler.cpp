@@ -105,6 +105,10 @@ glm::dvec4 MipLevel::texel(int x, int y) const {
     const std::size_t index =
         static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
     if (!image) return glm::dvec4(texels[index]);
+    if (!image->rgba16.empty()) {
+        const std::uint16_t* v = &image->rgba16[4 * index];
+        return glm::dvec4(v[0], v[1], v[2], v[3]) / 65535.0;
+    }
     const std::uint8_t* codes = &image->rgba[4 * index];
     const double alpha = codes[3] / 255.0;
     if (encoding == TextureEncoding::linear) {

@@ -82,7 +82,7 @@ Bytes scene_bytes(const Scene& scene, bool sampled_by_gl) {
                           mesh.texcoords[1], mesh.colors, mesh.indices);
     }
     Bytes images = 0;
-    for (const Image& image : scene.images) images += image.rgba.size() * 4 / 3;
+    for (const Image& image : scene.images) images += image.bytes() * 4 / 3;
     return 2 * bytes + (sampled_by_gl ? 2 : 1) * images +
            scene.instances.size() * 2 * sizeof(Instance);
 }

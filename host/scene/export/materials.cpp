@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "host/images/images.h"
 #include "host/scene/export/parts.h"
@@ -135,9 +136,10 @@ Json material_json(const Material& m) {
     return out;
 }
 
-bool is_opaque(const Image& image) {
-    for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
-        if (image.rgba[i] != 255) return false;
+template <typename T>
+bool is_opaque(const std::vector<T>& rgba) {
+    for (std::size_t i = 3; i < rgba.size(); i += 4) {
+        if (rgba[i] != std::numeric_limits<T>::max()) return false;
     }
     return true;
 }
@@ -163,11 +165,16 @@ ExportedMaterials export_materials(const Scene& scene) {
 }
 
 std::vector<unsigned char> encode_png(const Image& image) {
+    const SampleType type = image.rgba16.empty() ? SampleType::uint8 : SampleType::uint16;
     ImageLayout layout{image.width, image.height, {}};
-    for (const char* name : {"R", "G", "B"}) layout.channels.push_back({name, SampleType::uint8});
-    if (!is_opaque(image)) layout.channels.push_back({"A", SampleType::uint8});
+    for (const char* name : {"R", "G", "B"}) layout.channels.push_back({name, type});
+    if (!is_opaque(image.rgba) || !is_opaque(image.rgba16)) layout.channels.push_back({"A", type});
     layout.attributes.emplace_back("png:compressionLevel", 6);
-    return encode_pixels("image '" + image.name + "'", "png", layout, image.rgba, 4);
+    const auto* pixels = image.rgba16.empty()
+                             ? image.rgba.data()
+                             : reinterpret_cast<const unsigned char*>(image.rgba16.data());
+    return encode_pixels("image '" + image.name + "'", "png", layout, {pixels, image.bytes()},
+                         4 * size_of(type));
 }
 
 }  // namespace kilolux

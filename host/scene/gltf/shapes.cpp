@@ -100,7 +100,7 @@ void add_map_axes(const GltfDocument& document, const GltfMaterials& materials,
     for (MeshShape& shape : plan.shapes) {
         for (const auto& primitive : document.model.meshes[shape.mesh].primitives) {
             const MeshShading shading = shading_of(materials, primitive);
-            if (!shading.tangent_map.present()) continue;
+            if (!shading.needs_tangents) continue;
             const auto index = static_cast<std::size_t>(shading.material);
             shape.map_axes.push_back(axes(shading.tangent_map));
             shape.moves |=
@@ -149,7 +149,7 @@ MeshPlan plan_primitive(const GltfDocument& document, const GltfMaterials& mater
                               element_name("primitives", primitive_index);
     const auto& primitive = document.model.meshes[shape.mesh].primitives[primitive_index];
     return plan_mesh(document, open_primitive(document, primitive, where),
-                     shading_of(materials, primitive), shape.moves);
+                     shading_of(materials, primitive));
 }
 
 Mesh build_primitive(const GltfDocument& document, const GltfMaterials& materials,

@@ -3,6 +3,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "host/base/formats/mips.h"
 #include "kernels/shared/mips.h"
 
 namespace kilolux {
@@ -27,15 +28,30 @@ void next_level(const std::uint64_t* above, uint above_width, uint above_height,
 
 }  // namespace
 
-std::vector<std::uint64_t> mip_levels(std::span<const std::uint8_t> rgba, uint width, uint height,
-                                      bool srgb) {
-    std::vector<std::uint64_t> out(mip_texels(width, height));
+std::vector<std::uint64_t> first_level(const Image& image, bool srgb) {
     const auto decoded = linear_codes(srgb);
-    const std::size_t count = std::size_t{width} * height;
-    for (std::size_t i = 0; i < count; ++i) {
-        out[i] = make_texel(decoded[rgba[4 * i]], decoded[rgba[4 * i + 1]],
-                            decoded[rgba[4 * i + 2]], 257u * rgba[4 * i + 3]);
-    }
+    const auto width = static_cast<std::size_t>(image.width);
+    std::vector<std::uint64_t> out(width * static_cast<std::size_t>(image.height));
+    tbb::parallel_for(0, image.height, [&](int y) {
+        const std::size_t first = static_cast<std::size_t>(y) * width;
+        for (std::size_t i = first; i < first + width; ++i) {
+            if (image.rgba.empty()) {
+                const std::uint16_t* v = &image.rgba16[4 * i];
+                out[i] = make_texel(v[0], v[1], v[2], v[3]);
+            } else {
+                const std::uint8_t* v = &image.rgba[4 * i];
+                out[i] = make_texel(decoded[v[0]], decoded[v[1]], decoded[v[2]], 257u * v[3]);
+            }
+        }
+    });
+    return out;
+}
+
+std::vector<std::uint64_t> mip_levels(const Image& image, bool srgb) {
+    uint width = static_cast<uint>(image.width);
+    uint height = static_cast<uint>(image.height);
+    std::vector<std::uint64_t> out = first_level(image, srgb);
+    out.resize(mip_texels(width, height));
     std::uint64_t* above = out.data();
     while (width > 1 || height > 1) {
         std::uint64_t* level = above + std::size_t{width} * height;

@@ -2,16 +2,17 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
-#include "host/base/formats/mips.h"
+#include "host/scene/scene.h"
 
 namespace kilolux {
 
-/// The mip levels of an 8-bit image, to the bit as build_mips makes them: linear, 16 bits a
-/// channel, red lowest. `rgba`: rows from the top. `srgb`: colours are sRGB codes.
-std::vector<std::uint64_t> mip_levels(std::span<const std::uint8_t> rgba, uint width, uint height,
-                                      bool srgb);
+/// An image as devices store it: linear, 16 bits a channel, red lowest, rows from the top. `srgb`:
+/// colours are sRGB codes.
+std::vector<std::uint64_t> first_level(const Image& image, bool srgb);
+
+/// The same with all mip levels, to the bit as build_mips makes them.
+std::vector<std::uint64_t> mip_levels(const Image& image, bool srgb);
 
 }  // namespace kilolux

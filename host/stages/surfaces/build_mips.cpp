@@ -9,22 +9,13 @@ BuildMips::BuildMips(const Gpu& gpu, const Tuning& tuning)
     : gpu_(gpu),
       tuning_(tuning),
       program_(build_program(gpu, kBuildMipsStage)),
-      first_(gpu, program_, kBuildMipsStage, "mip_first"),
-      next_(gpu, program_, kBuildMipsStage, "mip_next"),
-      srgb_(gpu, kBuildMipsStage),
-      linear_(gpu, kBuildMipsStage),
-      image_(gpu, kBuildMipsStage) {
-    upload<std::uint16_t>(gpu_, srgb_.reserve(256), linear_codes(true));
-    upload<std::uint16_t>(gpu_, linear_.reserve(256), linear_codes(false));
-}
+      next_(gpu, program_, kBuildMipsStage, "mip_next") {}
 
-void BuildMips::enqueue(std::span<const std::uint8_t> rgba, bool srgb, const TextureRow& row,
+void BuildMips::enqueue(std::span<const std::uint64_t> first, const TextureRow& row,
                         const DeviceArray<std::uint64_t>& texels) {
     StageTimer untimed;
-    const uint count = row.width * row.height;
-    upload<std::uint8_t>(gpu_, image_.reserve(rgba.size()), rgba);
-    first_.enqueue(items(count, tuning_.light_group), untimed, image_.get(),
-                   (srgb ? srgb_ : linear_).get(), count, row.first_texel, texels);
+    gpu_.queue.enqueueWriteBuffer(texels, CL_TRUE, row.first_texel * sizeof(std::uint64_t),
+                                  first.size_bytes(), first.data());
     uint width = row.width;
     uint height = row.height;
     for (uint level = 1; level < row.levels; ++level) {

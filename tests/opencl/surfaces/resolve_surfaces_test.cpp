@@ -15,6 +15,7 @@
 #include "host/stages/surfaces/decode_gbuffer.h"
 #include "host/stages/surfaces/raster_triangles.h"
 #include "kernels/shared/gbuffer.h"
+#include "kernels/shared/mips.h"
 #include "tests/support/full.h"
 #include "tests/support/test_gpu.h"
 
@@ -85,13 +86,12 @@ class QuadScene {
         instance.normal_from_object[0].w = 1.0f;
         TextureRow texture{};
         place_mips(texture, 5, 3, 0);
-        std::vector<std::uint8_t> image;
-        for (int i = 0; i < 5 * 3; ++i) {
-            const auto code = static_cast<std::uint8_t>(17 * i);
-            image.insert(image.end(), {code, 128, static_cast<std::uint8_t>(255 - code), 255});
+        std::vector<std::uint64_t> image;
+        for (uint i = 0; i < 5 * 3; ++i) {
+            image.push_back(make_texel(257 * 17 * i, 257 * 128, 257 * (255 - 17 * i), 65535));
         }
         const auto texels = texels_.reserve(mip_texels(5, 3));
-        BuildMips(gpu, default_tuning(gpu.info)).enqueue(image, false, texture, texels);
+        BuildMips(gpu, default_tuning(gpu.info)).enqueue(image, texture, texels);
         put(vertices_, vertices, buffers.vertices);
         put(indices_, std::vector<uint>{0, 1, 2, 0, 2, 3}, buffers.indices);
         put(meshes_, std::vector{mesh}, buffers.meshes);

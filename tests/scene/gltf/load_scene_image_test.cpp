@@ -43,6 +43,22 @@ TEST(LoadSceneImage, KeepsTheColourBehindAlpha) {
     EXPECT_EQ(image.rgba, pixels);
 }
 
+TEST(LoadSceneImage, NormalMapsKeep16BitsWhereNothingElseReadsTheirImage) {
+    const std::vector<std::uint16_t> pixels = {32776, 32768, 65535, 1, 258, 40000};
+    GltfBuilder file = triangle_file();
+    const int map = file.add_texture(encode_deep_image("png", 2, 3, pixels), "image/png");
+    file.add("materials", {{"normalTexture", {{"index", map}}}});
+    const Image image = load(file).images.at(0);
+    EXPECT_TRUE(image.rgba.empty());
+    EXPECT_EQ(image.rgba16,
+              (std::vector<std::uint16_t>{32776, 32768, 65535, 65535, 1, 258, 40000, 65535}));
+    EXPECT_EQ(image.bytes(), 16u);
+    file.add("materials", {{"emissiveTexture", {{"index", map}}}});
+    const Image shared = load(file).images.at(0);
+    EXPECT_TRUE(shared.rgba16.empty());
+    EXPECT_EQ(shared.rgba, (Blob{128, 128, 255, 255, 0, 1, 156, 255}));
+}
+
 TEST(LoadSceneImage, ExpandsGreyAndRgb) {
     EXPECT_EQ(image_from_view(encode_image("png", 2, 1, {7, 9})).rgba,
               (Blob{7, 7, 7, 255, 9, 9, 9, 255}));

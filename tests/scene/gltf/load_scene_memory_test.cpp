@@ -88,6 +88,21 @@ TEST(LoadSceneMemory, BoundsImagesTogether) {
     EXPECT_EQ(error_with(file_with_images(40), 0), "") << "half of what is available";
 }
 
+TEST(LoadSceneMemory, NormalMapsOf16BitsTakeTwice) {
+    const std::vector<std::uint16_t> pixels(std::size_t{3} * 256 * 256, 257);
+    const Blob png = encode_deep_image("png", 256, 3, pixels);
+    for (const char* map : {"emissiveTexture", "normalTexture"}) {
+        GltfBuilder file = triangle_file();
+        for (int i = 0; i < 4; ++i) {
+            file.add("materials", {{map, {{"index", file.add_texture(png, "image/png")}}}});
+        }
+        const std::string error = error_with(file, 2 << 20);
+        EXPECT_EQ(error.find("scene.glb: images[") != std::string::npos,
+                  map == std::string("normalTexture"))
+            << map << ": " << error;
+    }
+}
+
 TEST(LoadSceneMemory, BoundsBuffersBeforeTheyAreRead) {
     GltfBuilder file = triangle_file();
     file.add_view(Blob(3 << 20));

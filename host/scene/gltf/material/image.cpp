@@ -7,6 +7,7 @@
 #include <array>
 #include <cctype>
 #include <cstdint>
+#include <limits>
 #include <mutex>
 #include <numeric>
 #include <string_view>
@@ -14,6 +15,7 @@
 #include "host/base/error.h"
 #include "host/images/images.h"
 #include "host/scene/gltf/parallel.h"
+#include "host/scene/material_table.h"
 
 namespace kilolux {
 namespace {
@@ -80,7 +82,7 @@ std::string reason(std::string text) {
 
 // Throws if the image is too large for a texture, for its encoded bytes or for the memory left.
 void check_size(const GltfDocument& document, const std::string& name, const ImageLayout& image,
-                std::size_t encoded_bytes) {
+                std::size_t encoded_bytes, SampleType type) {
     if (image.width < 1 || image.height < 1 || image.width > kMaxSide || image.height > kMaxSide) {
         document.fail(name, "is {}x{} pixels, must be from 1x1 to {}x{}", image.width, image.height,
                       kMaxSide, kMaxSide);
@@ -88,7 +90,7 @@ void check_size(const GltfDocument& document, const std::string& name, const Ima
     if (image.channels.empty() || image.channels.size() > 16) {
         document.fail(name, "has {} channels, which no texture has", image.channels.size());
     }
-    const std::uint64_t bytes = 4 * std::uint64_t{image.pixels()};
+    const std::uint64_t bytes = 4 * size_of(type) * std::uint64_t{image.pixels()};
     if (bytes > std::max(kFreeBytes, kMaxExpansion * encoded_bytes)) {
         document.fail(name, "claims {}x{} pixels in {} bytes, which no image holds", image.width,
                       image.height, encoded_bytes);
@@ -98,28 +100,57 @@ void check_size(const GltfDocument& document, const std::string& name, const Ima
 
 // Completes RGBA pixels of which only the first `channels` are filled; one or two are grey, with
 // alpha.
-void fill_rgba(std::vector<std::uint8_t>& rgba, std::size_t channels) {
+template <typename T>
+void fill_rgba(std::vector<T>& rgba, std::size_t channels) {
     for (std::size_t i = 0; channels < 4 && i < rgba.size(); i += 4) {
-        std::uint8_t* pixel = &rgba[i];
-        pixel[3] = channels == 2 ? pixel[1] : std::uint8_t{255};
+        T* pixel = &rgba[i];
+        pixel[3] = channels == 2 ? pixel[1] : std::numeric_limits<T>::max();
         if (channels < 3) pixel[1] = pixel[2] = pixel[0];
     }
 }
 
 // Divides colours by alpha: glTF's are not multiplied by it, but some readers of OpenImageIO
 // multiply them (WebP in 2.4). The division restores them up to rounding.
-void undo_associated_alpha(std::vector<std::uint8_t>& rgba) {
+template <typename T>
+void undo_associated_alpha(std::vector<T>& rgba) {
+    constexpr unsigned kOne = std::numeric_limits<T>::max();
     for (std::size_t i = 0; i < rgba.size(); i += 4) {
         const unsigned alpha = rgba[i + 3];
-        if (alpha == 0 || alpha == 255) continue;
+        if (alpha == 0 || alpha == kOne) continue;
         for (std::size_t c = 0; c < 3; ++c) {
-            const unsigned value = (rgba[i + c] * 255u + alpha / 2) / alpha;
-            rgba[i + c] = static_cast<std::uint8_t>(std::min(value, 255u));
+            const unsigned value = (rgba[i + c] * kOne + alpha / 2) / alpha;
+            rgba[i + c] = static_cast<T>(std::min(value, kOne));
         }
     }
 }
 
-Image decode(const GltfDocument& document, int index) {
+template <typename T>
+void read_rgba(ImageReader& reader, SampleType type, std::vector<T>& rgba) {
+    const ImageLayout& layout = reader.layout();
+    const std::size_t channels = std::min<std::size_t>(layout.channels.size(), 4);
+    rgba.resize(4 * layout.pixels());
+    reader.read(0, static_cast<int>(channels), type, rgba.data(), 4 * sizeof(T));
+    fill_rgba(rgba, channels);
+    if (layout.associated_alpha) undo_associated_alpha(rgba);
+}
+
+// By image of the materials, whether all that read it are maps in tangent space.
+std::vector<char> images_in_tangent_space(const GltfMaterials& materials) {
+    std::vector<char> out(materials.images.size(), 1);
+    for (const Material& material : materials.materials) {
+        for (const MaterialMap& map : kMaterialMaps) {
+            const TextureUse& use = material.*map.member;
+            if (!use.present() || (TANGENT_USES & (1u << map.use)) != 0) continue;
+            const int image = materials.textures[static_cast<std::size_t>(use.texture)].image;
+            const auto place = static_cast<std::size_t>(image);  // behind them: made of others
+            if (place < out.size()) out[place] = 0;
+        }
+    }
+    return out;
+}
+
+// `widest`: the type to keep where the file has more than 8 bits.
+Image decode(const GltfDocument& document, int index, SampleType widest) {
     const std::string name = name_of(document, index);
     const tinygltf::Image& source = document.model.images[static_cast<std::size_t>(index)];
     const FileBytes encoded = read_encoded(document, index);
@@ -136,15 +167,15 @@ Image decode(const GltfDocument& document, int index) {
         of_codec([&] { return format.empty() ? nullptr : open_encoded(format, encoded.bytes); });
     if (!reader) document.fail(name, "is of no image format that can be read");
     const ImageLayout& layout = reader->layout();
-    check_size(document, name, layout, encoded.bytes.size());
-    const std::size_t channels = std::min<std::size_t>(layout.channels.size(), 4);
+    const bool is_narrow = std::ranges::all_of(
+        layout.channels, [](const ImageChannel& c) { return c.type == SampleType::uint8; });
+    const SampleType type = is_narrow ? SampleType::uint8 : widest;
+    check_size(document, name, layout, encoded.bytes.size(), type);
     Image out{source.name, layout.width, layout.height, {}};
-    out.rgba.resize(4 * layout.pixels());
     of_codec([&] {
-        reader->read(0, static_cast<int>(channels), SampleType::uint8, out.rgba.data(), 4);
+        type == SampleType::uint8 ? read_rgba(*reader, type, out.rgba)
+                                  : read_rgba(*reader, type, out.rgba16);
     });
-    fill_rgba(out.rgba, channels);
-    if (layout.associated_alpha) undo_associated_alpha(out.rgba);
     return out;
 }
 
@@ -202,8 +233,14 @@ void check_chunk(const Chunk& chunk, const std::string& where) {
 
 }  // namespace
 
-std::vector<Image> decode_images(const GltfDocument& document, const std::vector<int>& images,
+std::vector<Image> decode_images(const GltfDocument& document, const GltfMaterials& materials,
                                  const LoadProgress& progress) {
+    const std::vector<int>& images = materials.images;
+    const std::vector<char> in_tangent_space = images_in_tangent_space(materials);
+    const auto decoded = [&](std::size_t i) {
+        return decode(document, images[i],
+                      in_tangent_space[i] != 0 ? SampleType::uint16 : SampleType::uint8);
+    };
     std::vector<Image> out(images.size());
     std::mutex telling;
     std::size_t done = 0;
@@ -221,7 +258,7 @@ std::vector<Image> decode_images(const GltfDocument& document, const std::vector
         std::vector<char> waits(left.size(), 0);
         parallel_each(left.size(), [&](std::size_t i) {
             try {
-                out[left[i]] = decode(document, images[left[i]]);
+                out[left[i]] = decoded(left[i]);
                 tell(1);
             } catch (const MemoryError&) {
                 waits[i] = 1;
@@ -232,7 +269,7 @@ std::vector<Image> decode_images(const GltfDocument& document, const std::vector
             if (waits[i] != 0) next.push_back(left[i]);
         }
         if (next.size() == left.size()) {
-            out[next[0]] = decode(document, images[next[0]]);
+            out[next[0]] = decoded(next[0]);
             tell(1);
             next.erase(next.begin());
         }

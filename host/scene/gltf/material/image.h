@@ -4,15 +4,16 @@
 #include <span>
 #include <string>
 
-#include "host/scene/gltf/document.h"
+#include "host/scene/gltf/material/material.h"
 
 namespace kilolux {
 
-/// Decodes images of the file (by index, each once) to RGBA8, on all cores.
+/// Decodes the images of materials on all cores, to RGBA of 8 bits a channel, or of 16 where the
+/// file has more than 8 and all that read the image are maps in tangent space.
 ///
 /// Any format that OpenImageIO reads, recognised by its bytes. Throws Error that names the first
 /// image that is missing, broken or too large (16384 x 16384 pixels, the document's memory budget).
-std::vector<Image> decode_images(const GltfDocument& document, const std::vector<int>& images,
+std::vector<Image> decode_images(const GltfDocument& document, const GltfMaterials& materials,
                                  const LoadProgress& progress = {});
 
 /// Throws Error "<where>: ..." when a PNG file is cut off, or a part that its pixels are made from

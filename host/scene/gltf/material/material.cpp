@@ -167,6 +167,7 @@ MeshShading shading_of(const GltfMaterials& materials, const tinygltf::Primitive
     if (shading.material == kDefaultMaterial) return shading;
     const auto index = static_cast<std::size_t>(shading.material);
     shading.texcoord_sets = materials.texcoord_sets[index];
+    shading.needs_tangents = needs_tangents(materials.materials[index]);
     shading.tangent_map = tangent_map(materials.materials[index]);
     return shading;
 }
@@ -184,7 +185,7 @@ void add_line_materials(const GltfDocument& document, GltfMaterials& materials) 
             const LineMaterial key = line_material_of(primitive);
             const auto index = static_cast<std::size_t>(std::max(primitive.material, 0));
             const bool is_default = primitive.material == kDefaultMaterial;
-            const bool bumpy = !is_default && tangent_map(materials.materials[index]).present();
+            const bool bumpy = !is_default && needs_tangents(materials.materials[index]);
             const bool as_it_is = key.normals && (key.tangents || !bumpy);
             if (as_it_is || materials.of_lines.contains(key)) continue;
             Material made = is_default ? Material{} : materials.materials[index];

@@ -8,6 +8,7 @@
 #include "host/scene/gltf/mesh/normals.h"
 #include "host/scene/gltf/mesh/skin.h"
 #include "host/scene/gltf/mesh/solids.h"
+#include "host/scene/gltf/mesh/tangent_groups.h"
 #include "host/scene/gltf/mesh/tangents.h"
 
 namespace kilolux {
@@ -86,15 +87,6 @@ bool has_tangents(const AttributeArrays& attributes) {
     return attributes.contains("NORMAL") && attributes.contains("TANGENT");
 }
 
-// Splits vertices by the file's texture coordinates where tangents will be derived from them.
-void split_for_tangents(const MeshShading& shading, MeshPlan& plan) {
-    const TextureUse& map = shading.tangent_map;
-    const auto texcoords = AttributeReader{plan, {}}.read<glm::vec2>(
-        texcoord_name(shading, static_cast<std::size_t>(map.uv_set)), {2});
-    split_mirrored(map_coordinates(texcoords, map, plan.elements.size()), plan.elements,
-                   plan.indices);
-}
-
 void read_attributes(Mesh& mesh, const AttributeReader& reader, const MeshShading& shading) {
     const AttributeArrays& attributes = reader.plan.arrays.attributes;
     mesh.positions = reader.read<glm::vec3>("POSITION", {3});
@@ -108,7 +100,7 @@ void read_attributes(Mesh& mesh, const AttributeReader& reader, const MeshShadin
     for (std::size_t set = 0; set < 2; ++set) {
         mesh.texcoords[set] = reader.read<glm::vec2>(texcoord_name(shading, set), {2});
     }
-    if (shading.tangent_map.present() && has_tangents(attributes)) {
+    if (shading.needs_tangents && has_tangents(attributes)) {
         mesh.tangents = reader.read<glm::vec4>("TANGENT", {4});
     }
 }
@@ -117,39 +109,16 @@ void finish_normals(Mesh& mesh) {
     mesh.normals.empty() ? derive_flat_normals(mesh) : mend_normals(mesh);
 }
 
-// Tangents where a normal map needs them.
-void finish_tangents(Mesh& mesh, const MeshShading& shading,
-                     const std::vector<std::uint32_t>& groups) {
-    const TextureUse& map = shading.tangent_map;
-    if (!map.present()) return;
-    if (!mesh.tangents.empty()) {
-        mend_tangents(mesh);
-        return;
-    }
-    derive_tangents(mesh, map, groups.empty() ? equal_vertices(mesh, map) : groups);
-}
-
-// Groups the vertices that are equal in the file and that weights and joints keep equal.
-std::vector<std::uint32_t> lasting_groups(const MeshPlan& plan, const MeshShading& shading) {
+// Groups the vertices that share a tangent.
+void group_tangents(const MeshShading& shading, MeshPlan& plan) {
     Mesh rest;
     read_attributes(rest, {plan, {}}, shading);
     rest.indices = plan.indices;
     finish_normals(rest);
-    std::vector<std::uint32_t> groups = equal_vertices(rest, shading.tangent_map);
-    std::vector<glm::vec4> values(groups.size());
-    const auto split_by = [&](const ElementArray& array) {
-        for (std::size_t v = 0; v < values.size(); ++v) {
-            values[v] = read_vector(array, plan.elements[v]);
-        }
-        split_groups(groups, values);
-    };
-    for (const auto& [name, array] : plan.arrays.attributes) {
-        if (name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_")) split_by(array);
-    }
-    for (const AttributeArrays& target : plan.arrays.targets) {
-        for (const auto& [name, array] : target) split_by(array);
-    }
-    return groups;
+    const auto set = static_cast<std::size_t>(shading.tangent_map.uv_set);
+    rest.texcoords[set].resize(rest.positions.size());
+    plan.tangent_groups =
+        split_tangent_groups(rest, rest.texcoords[set], plan.elements, plan.indices);
 }
 
 // What rounding positions of 64 bits to floats may take of a mesh's size.
@@ -176,8 +145,8 @@ constexpr std::size_t kMaxSolids = std::numeric_limits<std::uint32_t>::max() / 6
 
 }  // namespace
 
-MeshPlan plan_mesh(const GltfDocument& document, PrimitiveArrays arrays, const MeshShading& shading,
-                   bool moves) {
+MeshPlan plan_mesh(const GltfDocument& document, PrimitiveArrays arrays,
+                   const MeshShading& shading) {
     constexpr std::uint64_t kVertexBytes = 2 * (sizeof(glm::vec3) * 2 + sizeof(glm::vec4) * 2 +
                                                 sizeof(glm::vec2) * 2);  // room to split
     const bool is_surface = arrays.corners_each == 3;
@@ -190,10 +159,10 @@ MeshPlan plan_mesh(const GltfDocument& document, PrimitiveArrays arrays, const M
     document.budget->charge(plan.elements.size(), kVertexBytes, plan.arrays.where);
     report_rounding(document, plan);
     const bool derives_tangents =
-        is_surface && shading.tangent_map.present() && !has_tangents(plan.arrays.attributes);
+        is_surface && shading.needs_tangents && !has_tangents(plan.arrays.attributes);
     if (!derives_tangents) return plan;
-    if (shares_vertices) split_for_tangents(shading, plan);
-    if (moves) plan.tangent_groups = lasting_groups(plan, shading);
+    document.budget->charge(plan.indices.size(), kTangentGroupBytes, plan.arrays.where);
+    group_tangents(shading, plan);
     return plan;
 }
 
@@ -202,13 +171,18 @@ Mesh build_mesh(const MeshPlan& plan, const MeshShading& shading, const Deformat
     mesh.material = shading.material;
     read_attributes(mesh, {plan, deformation.weights}, shading);
     mesh.indices = plan.indices;
+    if (!plan.tangent_groups.empty()) {
+        finish_normals(mesh);
+        derive_tangents(mesh, shading.tangent_map, plan.tangent_groups);
+        if (!plan.arrays.attributes.contains("NORMAL")) mesh.normals.clear();
+    }
     if (!deformation.object_from_bind.empty()) {
         skin_mesh(mesh, plan.arrays, plan.elements, deformation.object_from_bind);
     }
     check_positions(plan.arrays.where, mesh, "morph targets and skin are applied");
     if (plan.arrays.corners_each != 3) return mesh;
     finish_normals(mesh);
-    finish_tangents(mesh, shading, plan.tangent_groups);
+    mend_tangents(mesh);
     return mesh;
 }
 

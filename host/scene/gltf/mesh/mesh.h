@@ -17,7 +17,8 @@ struct Deformation {
 struct MeshShading {
     int material = kDefaultMaterial;
     std::array<int, 2> texcoord_sets{0, 1};  // TEXCOORD_n that become Mesh::texcoords
-    TextureUse tangent_map;                  // tangents are made where it is present
+    bool needs_tangents = false;
+    TextureUse tangent_map;  // by whose coordinates they are derived
 };
 
 /// What a primitive's mesh is made of at any time: which vertices there are depends on the file
@@ -26,14 +27,14 @@ struct MeshPlan {
     PrimitiveArrays arrays;               // without its corners
     std::vector<std::uint32_t> elements;  // of the attributes, by vertex
     std::vector<std::uint32_t> indices;   // of vertices
-    // By vertex, the first of those that share a tangent: equal in the file and deformed alike.
-    // Empty where the mesh is made once; build_mesh() groups its vertices then.
+    // By vertex, one that names those that share a tangent, made at rest: without the weights of
+    // morph targets and without a skin. Empty where no tangents are derived.
     std::vector<std::uint32_t> tangent_groups;
 };
 
-/// Charges the memory of the mesh, too. `moves`: build_mesh() makes it for many times.
-MeshPlan plan_mesh(const GltfDocument& document, PrimitiveArrays arrays, const MeshShading& shading,
-                   bool moves);
+/// Charges the memory of the mesh, too.
+MeshPlan plan_mesh(const GltfDocument& document, PrimitiveArrays arrays,
+                   const MeshShading& shading);
 
 /// Converts a primitive. Vertices that no triangle uses are left out; without normals every
 /// triangle gets its own vertices and its flat normal. Points and segments stay what they are:
