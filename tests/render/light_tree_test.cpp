@@ -120,9 +120,7 @@ TEST(LightTreePictures, ErrWithinTheirBoundWithSheen) {
 // All surfaces are turned away from all lights, their coats are not.
 TEST(LightTreePictures, CountNodesThatOnlyCoatsFace) {
     Scene scene = car_paint_scene();
-    scene.images.push_back({"west", 1, 1, {0, 128, 140, 255}});
-    scene.textures.push_back({static_cast<int>(scene.images.size()) - 1, {}});
-    scene.materials[0].normal_texture.texture = static_cast<int>(scene.textures.size()) - 1;
+    scene.materials[0].normal_texture = add_texel(scene, {0, 128, 140, 255});
     scene.materials[0].normal_scale = 1.0f;
     scene.materials[0].clearcoat_normal_texture = {};
     add_points(scene, 300, {5, 0, 1}, {6, 1, 2});

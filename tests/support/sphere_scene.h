@@ -39,6 +39,15 @@ inline Scene sphere_scene(const Material& material) {
     return scene;
 }
 
+/// A texture of one texel.
+inline TextureUse add_texel(Scene& scene, const std::vector<std::uint8_t>& rgba) {
+    scene.images.push_back({"texel", 1, 1, rgba});
+    scene.textures.push_back({static_cast<int>(scene.images.size()) - 1, {}});
+    TextureUse use;
+    use.texture = static_cast<int>(scene.textures.size()) - 1;
+    return use;
+}
+
 /// A texture of `size` x `size` random texels whose channels are at least `least`.
 inline TextureUse add_noise(Scene& scene, int size, unsigned seed, std::array<unsigned, 3> least,
                             unsigned least_alpha = 255) {
