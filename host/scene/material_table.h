@@ -48,6 +48,8 @@ inline constexpr std::array<MaterialMap, USE_COUNT> kMaterialMaps = {{
      &Material::sheen_color_texture, true, "rgb", &SceneFeatures::sheen},
     {USE_SHEEN_ROUGHNESS, "extensions.KHR_materials_sheen.sheenRoughnessTexture",
      &Material::sheen_roughness_texture, false, "a", &SceneFeatures::sheen},
+    {USE_ANISOTROPY, "extensions.KHR_materials_anisotropy.anisotropyTexture",
+     &Material::anisotropy_texture, false, "rgb", &SceneFeatures::anisotropy},
 }};
 
 static_assert([] {
@@ -94,10 +96,14 @@ inline constexpr auto kMaterialFactors = std::to_array<MaterialFactor>({
      0},
     {"extensions.KHR_materials_sheen.sheenRoughnessFactor", &Material::sheen_roughness,
      &MaterialRow::sheen, 3},
+    {"extensions.KHR_materials_anisotropy.anisotropyStrength", &Material::anisotropy_strength,
+     &MaterialRow::anisotropy, 0},
+    {"extensions.KHR_materials_anisotropy.anisotropyRotation", &Material::anisotropy_rotation,
+     nullptr, 0, FactorRange::finite},
 });
 
 /// The map by whose texture coordinates tangents are made: the first one in tangent space. Not
-/// present where the material needs no tangents.
+/// present where none is.
 inline const TextureUse& tangent_map(const Material& material) {
     for (const MaterialMap& map : kMaterialMaps) {
         const TextureUse& use = material.*map.member;
@@ -140,7 +146,6 @@ inline constexpr auto kLeftOutMaterialExtensions = std::to_array<LeftOutExtensio
     {"KHR_materials_diffuse_transmission", "leaves and paper let no light through"},
     {"KHR_materials_dispersion", "glass shows no rainbow"},
     {"KHR_materials_iridescence", "thin films show no colours"},
-    {"KHR_materials_anisotropy", "brushed metal has round highlights"},
 });
 
 }  // namespace kilolux

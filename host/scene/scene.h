@@ -81,6 +81,9 @@ struct Material {
     TextureUse sheen_color_texture;      // sRGB
     float sheen_roughness = 0.0f;        // perceptual
     TextureUse sheen_roughness_texture;  // linear; A
+    float anisotropy_strength = 0.0f;    // KHR_materials_anisotropy
+    float anisotropy_rotation = 0.0f;    // [rad], from the tangent to the bitangent
+    TextureUse anisotropy_texture;       // linear; RG direction, B strength
     bool operator==(const Material&) const = default;
 };
 
@@ -101,7 +104,7 @@ struct Mesh {
     std::vector<glm::vec3> positions;  // [m], object space
     std::vector<glm::vec3> normals;    // unit; the loader derives flat ones when the file has none
     std::vector<glm::vec4>
-        tangents;  // xyz unit, w handedness +-1; present where the material has tangent_map()
+        tangents;  // xyz unit, w handedness +-1; where the material's maps or anisotropy need them
     std::array<std::vector<glm::vec2>, 2> texcoords;
     std::vector<glm::vec4> colors;       // linear, multiplies base_color
     std::vector<std::uint32_t> indices;  // 3 per triangle, each < positions.size()

@@ -79,10 +79,32 @@ static inline FV3 lobe_light(ReflectionMaps maps, View view, FV3 normal, FV3 to_
     return prefiltered(maps, rotate_to_world(view, lobe), roughness);
 }
 
+#if HAS_ANISOTROPY
+// KHR_materials_anisotropy, "Image-based lighting": the normal nearer to the plane of the eye and
+// the tangent, about which a stretched lobe reflects.
+static inline FV3 bent_normal(Surface s, FV3 to_eye) {
+    FV3 b = cross3(s.normal, s.tangent), n = s.normal;
+    FV along = dot3(b, to_eye);
+    FV3 bent =
+        fv3(fma(-along, b.x, to_eye.x), fma(-along, b.y, to_eye.y), fma(-along, b.z, to_eye.z));
+    bent = scale3(bent, lane_rsqrt(max(dot3(bent, bent), fv(1e-12f))));
+    FV a = fma(s.roughness - fv(1.0f), s.anisotropy, fv(1.0f));
+    a = (a * a) * (a * a);
+    bent = fv3(fma(a, n.x - bent.x, bent.x), fma(a, n.y - bent.y, bent.y),
+               fma(a, n.z - bent.z, bent.z));
+    bent = scale3(bent, lane_rsqrt(max(dot3(bent, bent), fv(1e-12f))));
+    return select3(lane_mask(s.anisotropy > fv(0.0f)), bent, n);
+}
+#endif
+
 static inline FV3 reflected(ReflectionMaps maps, View view, Surface s, FV3 irradiance) {
     ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
+    FV3 normal = s.normal;
+#if HAS_ANISOTROPY
+    normal = bent_normal(s, p.to_eye);
+#endif
     FV3 shares = table_at(maps, p.lobe.n_dot_v, s.roughness);
-    FV3 light = lobe_light(maps, view, s.normal, p.to_eye, s.roughness);
+    FV3 light = lobe_light(maps, view, normal, p.to_eye, s.roughness);
     FV f90 = fv(1.0f), kept = fv(1.0f) - shares.z;
 #if HAS_SPECULAR
     f90 = p.f90;

@@ -97,7 +97,16 @@ namespace kilolux {
 #define PLANE_SHEEN_B 37
 // full, optional: float, the sheen's perceptual roughness
 #define PLANE_SHEEN_ROUGHNESS 38
-#define PLANE_COUNT 39
+// all but full, optional: uint, the line along which highlights stretch (pack_anisotropy()) in 16
+// bits, their strength in the high 16
+#define PLANE_ANISOTROPY 39
+// full, optional: float, that direction, view space, unit, perpendicular to the normal
+#define PLANE_TANGENT_X 40
+#define PLANE_TANGENT_Y 41
+#define PLANE_TANGENT_Z 42
+// full, optional: float, the strength
+#define PLANE_ANISOTROPY_F 43
+#define PLANE_COUNT 44
 #define PLANE_ABSENT 0xffffffffu
 
 // The values of a surface beside its position and normal, a row each.
@@ -121,7 +130,10 @@ namespace kilolux {
     VECTOR(HAS_CLEARCOAT, coat_normal, SURFACE_COAT_NORMAL, PLANE_COAT_NORMAL_X, 0.0f)        \
     /* KHR_materials_sheen */                                                                 \
     VECTOR(HAS_SHEEN, sheen, SURFACE_SHEEN, PLANE_SHEEN_R, 0.0f)                              \
-    SCALAR(HAS_SHEEN, sheen_roughness, SURFACE_SHEEN_ROUGHNESS, PLANE_SHEEN_ROUGHNESS, 1.0f)
+    SCALAR(HAS_SHEEN, sheen_roughness, SURFACE_SHEEN_ROUGHNESS, PLANE_SHEEN_ROUGHNESS, 1.0f)  \
+    /* KHR_materials_anisotropy */                                                            \
+    VECTOR(HAS_ANISOTROPY, tangent, SURFACE_TANGENT, PLANE_TANGENT_X, 0.0f)                   \
+    SCALAR(HAS_ANISOTROPY, anisotropy, SURFACE_ANISOTROPY, PLANE_ANISOTROPY_F, 0.0f)
 // Reflectance of dielectrics at normal incidence (glTF 2.0, appendix B).
 #define DIELECTRIC_F0 0.04f
 
@@ -144,9 +156,9 @@ SHARED_STRUCT(GBufferLayout) {
     float emissive_scale;  // largest emissive value of the scene, > 0: PLANE_MATERIAL is relative
                            // to it
     uint bytes_per_pixel;
-    uint unused0, unused1;
+    uint unused0;
 };
-SHARED_ASSERT(gbuffer_layout_size, sizeof(GBufferLayout) == 176);
+SHARED_ASSERT(gbuffer_layout_size, sizeof(GBufferLayout) == 192);
 #endif
 
 // Octahedral coordinates in [-1, 1]^2 of a unit vector. Cigolle et al. 2014, "A Survey of Efficient

@@ -28,7 +28,7 @@ PICTURES = [("certify_tests", "All/HardCases.*Lanes16"), ("render_tests", "Paths
 
 # The first that fits a path below kernels/.
 STEPS = (
-    (r"shared/(evaluate|surface\.|light_sum|evaluate_modes|power|sheen)", LIGHTING + TAILS + PROFILES),
+    (r"shared/(evaluate|surface\.|light_sum|evaluate_modes|power|sheen|ggx)", LIGHTING + TAILS + PROFILES),
     (r"shared/(gbuffer|store|pack)", GBUFFER + PICTURES),
     (r"shared/(texture|mips|surface_of|surface_scene|material|triangle)", SURFACES + PICTURES),
     (r"shared/raster_row", TRIANGLES),

@@ -117,6 +117,21 @@ TEST(LightTreePictures, ErrWithinTheirBoundWithSheen) {
     }
 }
 
+TEST(LightTreePictures, ErrWithinTheirBoundWithAnisotropy) {
+    Scene scene = brushed_scene();
+    scene.materials[0].normal_texture = scene.materials[0].anisotropy_texture = {};
+    for (const float strength : {0.3f, 1.0f}) {
+        scene.materials[0].anisotropy_strength = strength;
+        scene.lights.clear();
+        add_points(scene, 1500, {-4.5, 1.0, -4.5}, {4.5, 3.0, 4.5});
+        for (const Tails tails : {Tails::tree, Tails::bounded}) {
+            const TailAgreement found = compare_coated(scene, tails);
+            EXPECT_EQ(found.below, 0) << strength;
+            EXPECT_GT(found.looseness.size(), 500u) << strength;
+        }
+    }
+}
+
 // All surfaces are turned away from all lights, their coats are not.
 TEST(LightTreePictures, CountNodesThatOnlyCoatsFace) {
     Scene scene = car_paint_scene();

@@ -85,7 +85,11 @@ void add_materials(GltfBuilder& file) {
          {{"sheenColorFactor", {0.5, 0.25, 1}},
           {"sheenColorTexture", {{"index", jpeg}, {"texCoord", 1}}},
           {"sheenRoughnessFactor", 0.375},
-          {"sheenRoughnessTexture", {{"index", webp}}}}}};
+          {"sheenRoughnessTexture", {{"index", webp}}}}},
+        {"KHR_materials_anisotropy",
+         {{"anisotropyStrength", 0.75},
+          {"anisotropyRotation", -4.5},
+          {"anisotropyTexture", {{"index", jpeg}}}}}};
     file.add("materials", {{"name", "lamp"},
                            {"alphaMode", "BLEND"},
                            {"extensions", {{"KHR_materials_unlit", json::object()}}}});
@@ -151,14 +155,13 @@ GltfBuilder every_feature_file() {
     add_meshopt_quad(file, "TRIANGLES");
     add_draco_quad(file, draco_quad(kDracoEdgebreaker));
     add_fallback_buffer(file);
-    file.root["extensionsRequired"] = {
-        "KHR_lights_punctual",        "KHR_texture_transform",
-        "KHR_mesh_quantization",      "KHR_materials_emissive_strength",
-        "KHR_materials_unlit",        "KHR_materials_ior",
-        "KHR_materials_specular",     "KHR_materials_clearcoat",
-        "KHR_materials_sheen",        "EXT_meshopt_compression",
-        "KHR_draco_mesh_compression", "EXT_texture_webp",
-        "KHR_node_visibility"};
+    file.root["extensionsRequired"] = {"KHR_lights_punctual",     "KHR_texture_transform",
+                                       "KHR_mesh_quantization",   "KHR_materials_emissive_strength",
+                                       "KHR_materials_unlit",     "KHR_materials_ior",
+                                       "KHR_materials_specular",  "KHR_materials_clearcoat",
+                                       "KHR_materials_sheen",     "KHR_materials_anisotropy",
+                                       "EXT_meshopt_compression", "KHR_draco_mesh_compression",
+                                       "EXT_texture_webp",        "KHR_node_visibility"};
     file.root["extensionsUsed"] = file.root["extensionsRequired"];
     return file;
 }

@@ -98,4 +98,19 @@ inline Scene cloth_scene() {
     return scene;
 }
 
+/// Brushed metal: stretched highlights of a map, turned.
+inline Scene brushed_scene() {
+    Material m;
+    m.base_color = {0.9f, 0.7f, 0.5f, 1.0f};
+    m.metallic = 0.8f;
+    m.roughness = 0.35f;
+    m.normal_scale = 0.2f;
+    m.anisotropy_strength = 0.9f;
+    m.anisotropy_rotation = 0.6f;
+    Scene scene = sphere_scene(m);
+    scene.materials[0].normal_texture = add_noise(scene, 32, 1, {0, 0, 192});
+    scene.materials[0].anisotropy_texture = add_noise(scene, 16, 2, {160, 64, 128});
+    return scene;
+}
+
 }  // namespace kilolux

@@ -62,6 +62,7 @@ SurfaceSamples RayCaster::cast(const Camera& camera, int width, int height,
         for (glm::dvec3* n : {&sample.normal, &sample.coat_normal}) {
             *n = *n != glm::dvec3(0.0) ? view_from_world * *n : glm::dvec3(0.0, 0.0, 1.0);
         }
+        sample.tangent = view_from_world * sample.tangent;
     };
     const auto cast_row = [&](int y) {
         for (int x = 0; x < width; ++x) cast_pixel(x, y);

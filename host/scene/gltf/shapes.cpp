@@ -100,9 +100,9 @@ void add_map_axes(const GltfDocument& document, const GltfMaterials& materials,
     for (MeshShape& shape : plan.shapes) {
         for (const auto& primitive : document.model.meshes[shape.mesh].primitives) {
             const MeshShading shading = shading_of(materials, primitive);
-            if (!shading.tangent_map.present()) continue;
+            if (!shading.tangent_map) continue;
             const auto index = static_cast<std::size_t>(shading.material);
-            shape.map_axes.push_back(axes(shading.tangent_map));
+            shape.map_axes.push_back(axes(*shading.tangent_map));
             shape.moves |=
                 axes(tangent_map(extremes[index])) != axes(tangent_map(extremes[count + index]));
         }

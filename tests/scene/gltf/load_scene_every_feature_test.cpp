@@ -78,7 +78,8 @@ TEST_F(LoadSceneEveryFeature, MaterialsHaveAllSlotsAndFactors) {
          {&all.base_color_texture, &all.metallic_roughness_texture, &all.normal_texture,
           &all.occlusion_texture, &all.emissive_texture, &all.specular_texture,
           &all.specular_color_texture, &all.clearcoat_texture, &all.clearcoat_roughness_texture,
-          &all.clearcoat_normal_texture, &all.sheen_color_texture, &all.sheen_roughness_texture}) {
+          &all.clearcoat_normal_texture, &all.sheen_color_texture, &all.sheen_roughness_texture,
+          &all.anisotropy_texture}) {
         EXPECT_TRUE(use->present());
     }
     EXPECT_EQ(all.base_color, glm::vec4(0.5f, 0.25f, 1.0f, 0.75f));
@@ -102,6 +103,8 @@ TEST_F(LoadSceneEveryFeature, MaterialsHaveAllSlotsAndFactors) {
     EXPECT_EQ(all.sheen_color, glm::vec3(0.5f, 0.25f, 1.0f));
     EXPECT_EQ(all.sheen_roughness, 0.375f);
     EXPECT_EQ(all.sheen_color_texture.uv_set, 1);
+    EXPECT_EQ(all.anisotropy_strength, 0.75f);
+    EXPECT_EQ(all.anisotropy_rotation, -4.5f);
     EXPECT_NE(all.normal_texture.uv_from_texcoord[0].y, 0.0f) << "rotated";
     const Sampler& sampler =
         scene_.textures.at(static_cast<std::size_t>(all.base_color_texture.texture)).sampler;

@@ -88,7 +88,7 @@ bool has_tangents(const AttributeArrays& attributes) {
 
 // Splits vertices by the file's texture coordinates where tangents will be derived from them.
 void split_for_tangents(const MeshShading& shading, MeshPlan& plan) {
-    const TextureUse& map = shading.tangent_map;
+    const TextureUse& map = *shading.tangent_map;
     const auto texcoords = AttributeReader{plan, {}}.read<glm::vec2>(
         texcoord_name(shading, static_cast<std::size_t>(map.uv_set)), {2});
     split_mirrored(map_coordinates(texcoords, map, plan.elements.size()), plan.elements,
@@ -108,7 +108,7 @@ void read_attributes(Mesh& mesh, const AttributeReader& reader, const MeshShadin
     for (std::size_t set = 0; set < 2; ++set) {
         mesh.texcoords[set] = reader.read<glm::vec2>(texcoord_name(shading, set), {2});
     }
-    if (shading.tangent_map.present() && has_tangents(attributes)) {
+    if (shading.tangent_map && has_tangents(attributes)) {
         mesh.tangents = reader.read<glm::vec4>("TANGENT", {4});
     }
 }
@@ -117,11 +117,11 @@ void finish_normals(Mesh& mesh) {
     mesh.normals.empty() ? derive_flat_normals(mesh) : mend_normals(mesh);
 }
 
-// Tangents where a normal map needs them.
+// Tangents where the material needs them.
 void finish_tangents(Mesh& mesh, const MeshShading& shading,
                      const std::vector<std::uint32_t>& groups) {
-    const TextureUse& map = shading.tangent_map;
-    if (!map.present()) return;
+    if (!shading.tangent_map) return;
+    const TextureUse& map = *shading.tangent_map;
     if (!mesh.tangents.empty()) {
         mend_tangents(mesh);
         return;
@@ -135,7 +135,7 @@ std::vector<std::uint32_t> lasting_groups(const MeshPlan& plan, const MeshShadin
     read_attributes(rest, {plan, {}}, shading);
     rest.indices = plan.indices;
     finish_normals(rest);
-    std::vector<std::uint32_t> groups = equal_vertices(rest, shading.tangent_map);
+    std::vector<std::uint32_t> groups = equal_vertices(rest, *shading.tangent_map);
     std::vector<glm::vec4> values(groups.size());
     const auto split_by = [&](const ElementArray& array) {
         for (std::size_t v = 0; v < values.size(); ++v) {
@@ -190,7 +190,7 @@ MeshPlan plan_mesh(const GltfDocument& document, PrimitiveArrays arrays, const M
     document.budget->charge(plan.elements.size(), kVertexBytes, plan.arrays.where);
     report_rounding(document, plan);
     const bool derives_tangents =
-        is_surface && shading.tangent_map.present() && !has_tangents(plan.arrays.attributes);
+        is_surface && shading.tangent_map && !has_tangents(plan.arrays.attributes);
     if (!derives_tangents) return plan;
     if (shares_vertices) split_for_tangents(shading, plan);
     if (moves) plan.tangent_groups = lasting_groups(plan, shading);

@@ -17,7 +17,7 @@ struct Deformation {
 struct MeshShading {
     int material = kDefaultMaterial;
     std::array<int, 2> texcoord_sets{0, 1};  // TEXCOORD_n that become Mesh::texcoords
-    TextureUse tangent_map;                  // tangents are made where it is present
+    std::optional<TextureUse> tangent_map;   // by which tangents are made; none: not needed
 };
 
 /// What a primitive's mesh is made of at any time: which vertices there are depends on the file
