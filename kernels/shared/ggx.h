@@ -58,6 +58,12 @@ SHARED_FN GgxLobe make_ggx_lobe(FV3 normal, FV3 to_eye, FV roughness) {
 }
 
 #if HAS_ANISOTROPY
+// S(d), by the cosines of the unit direction d to the normal and the tangent.
+SHARED_FN FV stretched_smith(GgxLobe lobe, FV n_dot_d, FV t_dot_d) {
+    FV square = fma(n_dot_d * n_dot_d, fv(1.0f) - lobe.alpha2, lobe.alpha2);
+    return lane_sqrt(fma(t_dot_d * t_dot_d, lobe.stretch, square));
+}
+
 // The lobe with `strength` along the tangent. What it adds to a round lobe's terms is exactly 0
 // without strength, and positive else: nothing cancels in narrow lobes.
 SHARED_FN GgxLobe stretched_lobe(GgxLobe lobe, FV3 to_eye, FV3 tangent, FV strength) {
@@ -70,8 +76,7 @@ SHARED_FN GgxLobe stretched_lobe(GgxLobe lobe, FV3 to_eye, FV3 tangent, FV stren
     lobe.rise = lobe.stretch * ratio / (along * lobe.alpha2);
     lobe.alpha = along * ratio;
     lobe.slope = (one - along * along) / along * ratio;
-    FV smith2 = fma(lobe.n_dot_v * lobe.n_dot_v, one - lobe.alpha2, lobe.alpha2);
-    lobe.smith_v = lane_sqrt(fma(lobe.t_dot_v * lobe.t_dot_v, lobe.stretch, smith2));
+    lobe.smith_v = stretched_smith(lobe, lobe.n_dot_v, lobe.t_dot_v);
     return lobe;
 }
 #endif
@@ -102,14 +107,15 @@ SHARED_FN FV ggx_light(GgxLobe lobe, FV3 normal, HalfVector half_way, FV n_dot_l
     FV hh = half_way.hh;
     FV3 nxh = cross3(normal, half_way.h);
     FV ggx = fma(dot3(nxh, nxh), lobe.slope, lobe.alpha * hh);
-    FV smith2 = fma(n_dot_l * n_dot_l, fv(1.0f) - lobe.alpha2, lobe.alpha2);
 #if HAS_ANISOTROPY
     FV b_dot_h = dot3(lobe.tangent, nxh);  // up to its sign
-    FV t_dot_l = dot3(lobe.tangent, half_way.h) - lobe.t_dot_v;
     ggx = fma(b_dot_h * b_dot_h, lobe.rise, ggx);
-    smith2 = fma(t_dot_l * t_dot_l, lobe.stretch, smith2);
+    FV t_dot_l = dot3(lobe.tangent, half_way.h) - lobe.t_dot_v;
+    FV smith_l = stretched_smith(lobe, n_dot_l, t_dot_l);
+#else
+    FV smith_l = lane_sqrt(fma(n_dot_l * n_dot_l, fv(1.0f) - lobe.alpha2, lobe.alpha2));
 #endif
-    FV smith = fma(n_dot_l, lobe.smith_v, lobe.n_dot_v * lane_sqrt(smith2));
+    FV smith = fma(n_dot_l, lobe.smith_v, lobe.n_dot_v * smith_l);
     return lane_divide(lit * (hh * hh), ggx * ggx * smith);
 }
 
