@@ -254,8 +254,7 @@ SHARED_FN Surface with_anisotropy(IN(Textures) textures, IN(Fragment) f, Surface
     t = fv3(fma(-along, s.normal.x, t.x), fma(-along, s.normal.y, t.y),
             fma(-along, s.normal.z, t.z));
     FV square = dot3(t, t);
-    MASK has_line =
-        lane_and(lane_mask(AT(f).handedness != fv(0.0f)), lane_mask(square > fv(1e-12f)));
+    MASK has_line = lane_mask(square > fv(1e-12f));
     s.tangent = scale3(t, fv(1.0f) / lane_sqrt(lane_select(has_line, square, fv(1.0f))));
     s.anisotropy = lane_select(has_line, strength, fv(0.0f));
     return s;

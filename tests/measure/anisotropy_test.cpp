@@ -156,11 +156,13 @@ TEST(Anisotropy, MirroredTangentsAndEveryLobeAreTheReference) {
     m.sheen_color = glm::vec3(0.2f);
     m.sheen_roughness = 0.5f;
     for (const float handedness : {1.0f, -1.0f}) {
-        for (glm::vec4& tangent : scene.meshes[0].tangents) tangent.w = handedness;
-        scene.instances[0].world_from_object[0][0] = handedness;
-        const std::vector<double> found = reference_differences(scene, lobe_settings());
-        EXPECT_LT(quantile(found, 0.5), 2e-5) << handedness;
-        EXPECT_LT(quantile(found, 0.99), 1e-3) << handedness;
+        for (const double mirror : {1.0, -1.0}) {
+            for (glm::vec4& tangent : scene.meshes[0].tangents) tangent.w = handedness;
+            scene.instances[0].world_from_object[0][0] = mirror;
+            const std::vector<double> found = reference_differences(scene, lobe_settings());
+            EXPECT_LT(quantile(found, 0.5), 2e-5) << handedness << ' ' << mirror;
+            EXPECT_LT(quantile(found, 0.99), 1e-3) << handedness << ' ' << mirror;
+        }
     }
 }
 
@@ -218,6 +220,9 @@ TEST(Anisotropy, HighlightsStretchAlongTheDirection) {
     m.anisotropy_texture = add_texel(scene, {128, 255, 0, 255});  // of no strength
     EXPECT_NEAR(stretch_along_x(scene), 1.0, 0.05);
     m.anisotropy_texture = {};
+    scene.meshes.push_back(scene.meshes[0]);
+    scene.instances.push_back({1, glm::dmat4(1.0)});
+    scene.instances[1].world_from_object[3].z = -99.0;
     scene.meshes[0].tangents.clear();
     EXPECT_NEAR(stretch_along_x(scene), 1.0, 0.05) << "no tangents";
 }
