@@ -20,6 +20,7 @@ constexpr SceneFeature kTable[] = {
     {"specular", &F::specular, "HAS_SPECULAR", true},
     {"clearcoat", &F::clearcoat, "HAS_CLEARCOAT", true},
     {"sheen", &F::sheen, "HAS_SHEEN", true},
+    {"anisotropy", &F::anisotropy, "HAS_ANISOTROPY", true},
     {"transmission", &F::transmission, "HAS_TRANSMISSION"},
     {"unlit", &F::unlit_materials, nullptr, true},
     {"", &F::unlit, "HAS_UNLIT"},

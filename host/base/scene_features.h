@@ -24,6 +24,7 @@ struct SceneFeatures {
     bool specular = false;         // dielectrics that reflect otherwise than 4 %
     bool clearcoat = false;        // surfaces with a clear coat
     bool sheen = false;            // surfaces with sheen
+    bool anisotropy = false;       // surfaces that stretch highlights
     bool transmission = false;     // surfaces that light passes through
     bool unlit = false;            // unlit surfaces among glossy ones: a roughness of 0 marks them
     bool unlit_materials = false;  // unlit surfaces at all

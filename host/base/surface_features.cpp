@@ -8,6 +8,7 @@ namespace kilolux {
 SurfaceFeatures alpha_features(SurfaceFeatures features) {
     features.anisotropy = 1;
     features.texture_uses &= 1u << USE_BASE_COLOR;
+    features.tangents = false;
     return features;
 }
 
@@ -20,7 +21,7 @@ std::vector<std::pair<std::string, std::string>> surface_macros(const SurfaceFea
             {"HAS_NEAREST", flag(features.nearest)},
             {"HAS_WRAPS", flag(features.wraps)},
             {"HAS_UV_TRANSFORM", flag(features.uv_transform)},
-            {"HAS_TANGENT", flag((features.texture_uses & TANGENT_USES) != 0)},
+            {"HAS_TANGENT", flag(features.tangents)},
             {"MAX_ANISOTROPY", std::to_string(features.anisotropy)}};
 }
 

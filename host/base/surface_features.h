@@ -15,6 +15,7 @@ struct SurfaceFeatures {
     bool texcoord0 = false;
     bool texcoord1 = false;
     bool vertex_color = false;
+    bool tangents = false;
     bool nearest = false;       // filters other than linear between texels and between mip levels
     bool wraps = false;         // other than repeat
     bool uv_transform = false;  // KHR_texture_transform

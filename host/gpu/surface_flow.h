@@ -4,7 +4,6 @@
 #include "host/base/surface_features.h"
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
-#include "kernels/shared/raster_row.h"
 #include "kernels/shared/shadow.h"
 #include "kernels/shared/surface_scene.h"
 

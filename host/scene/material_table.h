@@ -48,6 +48,8 @@ inline constexpr std::array<MaterialMap, USE_COUNT> kMaterialMaps = {{
      &Material::sheen_color_texture, true, "rgb", &SceneFeatures::sheen},
     {USE_SHEEN_ROUGHNESS, "extensions.KHR_materials_sheen.sheenRoughnessTexture",
      &Material::sheen_roughness_texture, false, "a", &SceneFeatures::sheen},
+    {USE_ANISOTROPY, "extensions.KHR_materials_anisotropy.anisotropyTexture",
+     &Material::anisotropy_texture, false, "rgb", &SceneFeatures::anisotropy},
     {USE_TRANSMISSION, "extensions.KHR_materials_transmission.transmissionTexture",
      &Material::transmission_texture, false, "r", &SceneFeatures::transmission},
     {USE_THICKNESS, "extensions.KHR_materials_volume.thicknessTexture",
@@ -98,6 +100,10 @@ inline constexpr auto kMaterialFactors = std::to_array<MaterialFactor>({
      0},
     {"extensions.KHR_materials_sheen.sheenRoughnessFactor", &Material::sheen_roughness,
      &MaterialRow::sheen, 3},
+    {"extensions.KHR_materials_anisotropy.anisotropyStrength", &Material::anisotropy_strength,
+     &MaterialRow::anisotropy, 0},
+    {"extensions.KHR_materials_anisotropy.anisotropyRotation", &Material::anisotropy_rotation,
+     nullptr, 0, FactorRange::finite},
     {"extensions.KHR_materials_transmission.transmissionFactor", &Material::transmission,
      &MaterialRow::transmission, 0},
     {"extensions.KHR_materials_volume.thicknessFactor", &Material::thickness, &MaterialRow::volume,
@@ -151,7 +157,6 @@ inline constexpr auto kLeftOutMaterialExtensions = std::to_array<LeftOutExtensio
     {"KHR_materials_diffuse_transmission", "leaves and paper let no light through"},
     {"KHR_materials_dispersion", "glass shows no rainbow"},
     {"KHR_materials_iridescence", "thin films show no colours"},
-    {"KHR_materials_anisotropy", "brushed metal has round highlights"},
 });
 
 }  // namespace kilolux

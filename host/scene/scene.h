@@ -84,6 +84,9 @@ struct Material {
     TextureUse sheen_color_texture;      // sRGB
     float sheen_roughness = 0.0f;        // perceptual
     TextureUse sheen_roughness_texture;  // linear; A
+    float anisotropy_strength = 0.0f;    // KHR_materials_anisotropy
+    float anisotropy_rotation = 0.0f;    // [rad], from the tangent to the bitangent
+    TextureUse anisotropy_texture;       // linear; RG direction, B strength
     float transmission = 0.0f;           // KHR_materials_transmission
     TextureUse transmission_texture;     // linear; R
     float thickness = 0.0f;              // KHR_materials_volume [m], object space

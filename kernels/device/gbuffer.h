@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Decodes VW pixels of a G-buffer. GBUFFER, HAS_MATERIAL, HAS_OCCLUSION, HAS_SPECULAR,
-// HAS_CLEARCOAT and HAS_SHEEN say what it holds.
+// HAS_CLEARCOAT, HAS_SHEEN and HAS_ANISOTROPY say what it holds.
 #ifndef KILOLUX_DEVICE_GBUFFER_H
 #define KILOLUX_DEVICE_GBUFFER_H
 #include "kernels/device/lanes.h"

@@ -79,10 +79,81 @@ static inline FV3 lobe_light(ReflectionMaps maps, View view, FV3 normal, FV3 to_
     return prefiltered(maps, rotate_to_world(view, lobe), roughness);
 }
 
+// What a lobe reflects.
+typedef struct LobeLight {
+    FV3 light;
+    FV3 shares;  // of table_at()
+} LobeLight;
+
+#if HAS_ANISOTROPY
+// Half vectors along the tangent of a stretched lobe, and alpha of the narrow lobes about them by
+// their distance (tuned: tests/measure/reflections_test.cpp).
+#define STRETCHED_SAMPLES 9
+#define STRETCHED_WIDTH 0.3f
+
+static inline FV schlick_rise(FV cosine) {
+    FV dark = max(fv(1.0f) - cosine, fv(0.0f));
+    return dark * dark * dark * dark * dark;
+}
+
+// The share of the light that a lobe reflects about the half vector h: 4 V v.h n.l / n.h.
+static inline FV share_about(ShadingPoint p, FV3 h, FV n_dot_h, FV v_dot_h) {
+    FV3 l = sub3(scale3(h, 2.0f * v_dot_h), p.to_eye);
+    FV n_dot_l = max(dot3(p.normal, l), fv(0.0f));
+    FV smith_l = stretched_smith(p.lobe, n_dot_l, dot3(p.lobe.tangent, l));
+    FV smith = fma(n_dot_l, p.lobe.smith_v, p.lobe.n_dot_v * smith_l);
+    return 2.0f * v_dot_h * n_dot_l / (smith * n_dot_h);
+}
+
+// A stretched lobe as narrow ones about half vectors along the tangent, at even quantiles of GGX's
+// slopes without those across. Each is as wide as the slopes that it stands for.
+static inline LobeLight stretched(ReflectionMaps maps, View view, Surface s, ShadingPoint p,
+                                  LobeLight isotropic) {
+    FV across = clamped_alpha(s.roughness), one = fv(1.0f);
+    FV width = (one - across) * s.anisotropy * s.anisotropy;  // what is added to `across`
+    FV3 sum = zero3();
+    FV total = fv(0.0f), rise = fv(0.0f);
+    for (int k = 0; k < STRETCHED_SAMPLES; ++k) {
+        float u = (float)(2 * k + 1 - STRETCHED_SAMPLES) / STRETCHED_SAMPLES;
+        float stretch = 1.0f / sqrt(1.0f - u * u);
+        FV slope = width * (u * stretch);
+        FV n_dot_h = one / lane_sqrt(fma(slope, slope, one));
+        FV3 h = scale3(add3(s.normal, scale3(s.tangent, slope)), n_dot_h);
+        FV v_dot_h = max(dot3(p.to_eye, h), fv(0.0f));
+        FV share = share_about(p, h, n_dot_h, v_dot_h);
+        FV alpha = width * (STRETCHED_WIDTH * stretch * stretch * stretch / STRETCHED_SAMPLES);
+        FV roughness = lane_sqrt(min(max(alpha, across), one));
+        sum = add3(sum, scale3(lobe_light(maps, view, h, p.to_eye, roughness), share));
+        total += share;
+        rise = fma(share, schlick_rise(v_dot_h), rise);
+    }
+    LobeLight out;
+    out.light = scale3(sum, one / max(total, fv(1e-6f)));
+    // The table's shares, changed as those of these half vectors change without strength.
+    FV n_dot_v = p.lobe.n_dot_v, count = fv((float)STRETCHED_SAMPLES);
+    FV smith = lane_sqrt(fma(n_dot_v * n_dot_v, one - p.lobe.alpha2, p.lobe.alpha2));
+    FV ratio = total * smith / (n_dot_v * count);
+    FV more = fma(-total, schlick_rise(n_dot_v), rise) / count;
+    out.shares = isotropic.shares;
+    out.shares.y = max(fma(isotropic.shares.y, ratio, more), fv(0.0f));
+    out.shares.x =
+        max(fma(isotropic.shares.x + isotropic.shares.y, ratio, -out.shares.y), fv(0.0f));
+    MASK is_stretched = lane_mask(s.anisotropy > fv(0.0f));
+    out.light = select3(is_stretched, out.light, isotropic.light);
+    out.shares = select3(is_stretched, out.shares, isotropic.shares);
+    return out;
+}
+#endif
+
 static inline FV3 reflected(ReflectionMaps maps, View view, Surface s, FV3 irradiance) {
     ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
-    FV3 shares = table_at(maps, p.lobe.n_dot_v, s.roughness);
-    FV3 light = lobe_light(maps, view, s.normal, p.to_eye, s.roughness);
+    LobeLight lobe;
+    lobe.shares = table_at(maps, p.lobe.n_dot_v, s.roughness);
+    lobe.light = lobe_light(maps, view, s.normal, p.to_eye, s.roughness);
+#if HAS_ANISOTROPY
+    lobe = stretched(maps, view, s, p, lobe);
+#endif
+    FV3 shares = lobe.shares, light = lobe.light;
     FV f90 = fv(1.0f), kept = fv(1.0f) - shares.z;
 #if HAS_SPECULAR
     f90 = p.f90;

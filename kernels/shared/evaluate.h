@@ -65,37 +65,6 @@ SHARED_FN LightSum add_blinn_phong(LightSum sum, ShadingPoint p, FV3 v, FV dista
 }
 
 #elif SHADING == SHADING_PBR
-// The half vector h, not normalised.
-SHARED_PLAIN_STRUCT(HalfVector) {
-    FV3 h;
-    FV hh;  // its length squared
-};
-
-// Of light from the unit direction `v` * `inv_length`.
-SHARED_FN HalfVector half_vector(ShadingPoint p, FV3 v, FV inv_length) {
-    HalfVector half_way;
-    FV3 h = fv3(fma(v.x, inv_length, p.to_eye.x), fma(v.y, inv_length, p.to_eye.y),
-                fma(v.z, inv_length, p.to_eye.z));
-    half_way.h = h;
-    // 1e-12: light from straight behind the view has no half vector; the sum is only rounding (1e-7
-    // long).
-    half_way.hh = max(dot3(h, h), fv(1e-12f));
-    return half_way;
-}
-
-// `lit` * D * V without its constant 1 / (2 pi), which reflected_radiance() multiplies in.
-SHARED_FN FV ggx_light(GgxLobe lobe, FV3 normal, HalfVector half_way, FV n_dot_l, FV lit) {
-    // Lagrange's identity |n x h|^2 = h^2 - (n.h)^2 keeps narrow lobes (Filament, 4.4.1). Both
-    // sides of D's fraction are multiplied by h^2, which saves normalising h, and divided by alpha,
-    // so that the peak of a mirror keeps the size it has in the end.
-    FV hh = half_way.hh;
-    FV3 nxh = cross3(normal, half_way.h);
-    FV ggx = fma(dot3(nxh, nxh), lobe.slope, lobe.alpha * hh);
-    FV smith_l = lane_sqrt(fma(n_dot_l * n_dot_l, fv(1.0f) - lobe.alpha2, lobe.alpha2));
-    FV smith = fma(n_dot_l, lobe.smith_v, lobe.n_dot_v * smith_l);
-    return lane_divide(lit * (hh * hh), ggx * ggx * smith);
-}
-
 // Light of `lit` = intensity's weight * falloff * n.l.
 SHARED_FN LightSum add_pbr(LightSum sum, ShadingPoint p, HalfVector half_way, FV n_dot_l, FV lit,
                            float4 color) {
@@ -152,7 +121,7 @@ SHARED_FN LightSum add_sheen(LightSum sum, ShadingPoint p, HalfVector half_way, 
 // Light of the direction `v` * `inv_length`: intensity's weight * falloff, and that times n.l.
 SHARED_FN LightSum add_lobes(LightSum sum, ShadingPoint p, FV3 v, FV inv_length, FV n_dot_l,
                              FV weight, FV lit, float4 color) {
-    HalfVector half_way = half_vector(p, v, inv_length);
+    HalfVector half_way = half_vector(p.to_eye, v, inv_length);
 #if HAS_COAT
     sum = add_coat(sum, p, half_way, v, inv_length, weight, color);
 #endif
@@ -384,14 +353,6 @@ SHARED_PLAIN_STRUCT(LightBound) {
     FV3 all;         // the sum of intensity / distance^2
     FV3 irradiance;  // that sum times n.l, or `all` where n.l is unknown
 };
-
-#if SHADING == SHADING_PBR
-// D V n.l without 1 / (2 pi), at most, where n.h is at most `cosine`: V n.l <= 1 / (2 smith_v).
-SHARED_FN FV ggx_bound(GgxLobe lobe, FV cosine) {
-    FV ggx = fma(fv(1.0f) - cosine * cosine, lobe.slope, lobe.alpha);
-    return fv(1.0f) / (ggx * ggx * lobe.smith_v);
-}
-#endif
 
 #if HAS_COAT
 // The largest cosine of an angle to `other` of what has `cosine` >= 0 to `normal` at most.

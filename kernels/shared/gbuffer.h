@@ -97,15 +97,24 @@ namespace kilolux {
 #define PLANE_SHEEN_B 37
 // full, optional: float, the sheen's perceptual roughness
 #define PLANE_SHEEN_ROUGHNESS 38
+// all but full, optional: uint, the line along which highlights stretch (pack_anisotropy()) in 16
+// bits, their strength in the high 16
+#define PLANE_ANISOTROPY 39
+// full, optional: float, that direction, view space, unit, perpendicular to the normal
+#define PLANE_TANGENT_X 40
+#define PLANE_TANGENT_Y 41
+#define PLANE_TANGENT_Z 42
+// full, optional: float, the strength
+#define PLANE_ANISOTROPY_F 43
 // all but full, layers only: uchar4, square roots of the tint, the transmission in the 4th
-#define PLANE_TRANSMISSION 39
+#define PLANE_TRANSMISSION 44
 // full, layers only: float, the tint, linear Rec. 709
-#define PLANE_TINT_R 40
-#define PLANE_TINT_G 41
-#define PLANE_TINT_B 42
+#define PLANE_TINT_R 45
+#define PLANE_TINT_G 46
+#define PLANE_TINT_B 47
 // full, layers only: float
-#define PLANE_TRANSMISSION_F 43
-#define PLANE_COUNT 44
+#define PLANE_TRANSMISSION_F 48
+#define PLANE_COUNT 49
 #define PLANE_ABSENT 0xffffffffu
 
 // The values of a surface beside its position and normal, a row each.
@@ -132,7 +141,10 @@ namespace kilolux {
     SCALAR(HAS_SHEEN, sheen_roughness, SURFACE_SHEEN_ROUGHNESS, PLANE_SHEEN_ROUGHNESS, 1.0f)      \
     /* KHR_materials_volume's transmittance of what lies below, and KHR_materials_transmission */ \
     VECTOR(HAS_TRANSMISSION, tint, SURFACE_TINT, PLANE_TINT_R, 1.0f)                              \
-    SCALAR(HAS_TRANSMISSION, transmission, SURFACE_TRANSMISSION, PLANE_TRANSMISSION_F, 0.0f)
+    SCALAR(HAS_TRANSMISSION, transmission, SURFACE_TRANSMISSION, PLANE_TRANSMISSION_F, 0.0f)      \
+    /* KHR_materials_anisotropy */                                                                \
+    VECTOR(HAS_ANISOTROPY, tangent, SURFACE_TANGENT, PLANE_TANGENT_X, 0.0f)                       \
+    SCALAR(HAS_ANISOTROPY, anisotropy, SURFACE_ANISOTROPY, PLANE_ANISOTROPY_F, 0.0f)
 // Reflectance of dielectrics at normal incidence (glTF 2.0, appendix B).
 #define DIELECTRIC_F0 0.04f
 
@@ -155,9 +167,8 @@ SHARED_STRUCT(GBufferLayout) {
     float emissive_scale;  // largest emissive value of the scene, > 0: PLANE_MATERIAL is relative
                            // to it
     uint bytes_per_pixel;
-    uint unused0;
 };
-SHARED_ASSERT(gbuffer_layout_size, sizeof(GBufferLayout) == 192);
+SHARED_ASSERT(gbuffer_layout_size, sizeof(GBufferLayout) == 208);
 #endif
 
 // Octahedral coordinates in [-1, 1]^2 of a unit vector. Cigolle et al. 2014, "A Survey of Efficient

@@ -20,11 +20,12 @@ namespace kilolux {
 #define USE_CLEARCOAT_NORMAL 9
 #define USE_SHEEN_COLOR 10
 #define USE_SHEEN_ROUGHNESS 11
-#define USE_TRANSMISSION 12
-#define USE_THICKNESS 13
-#define USE_COUNT 14
+#define USE_ANISOTROPY 12
+#define USE_TRANSMISSION 13
+#define USE_THICKNESS 14
+#define USE_COUNT 15
 // Bits 1 << USE_* of the maps in tangent space.
-#define TANGENT_USES ((1u << USE_NORMAL) | (1u << USE_CLEARCOAT_NORMAL))
+#define TANGENT_USES ((1u << USE_NORMAL) | (1u << USE_CLEARCOAT_NORMAL) | (1u << USE_ANISOTROPY))
 
 SHARED_STRUCT(MaterialRow) {
     float4 base_color;       // linear Rec. 709, alpha
@@ -33,12 +34,13 @@ SHARED_STRUCT(MaterialRow) {
     float4 specular;         // xyz: reflectance head on times the colour factor; w: specular factor
     float4 clearcoat;        // factor, roughness, normal scale
     float4 sheen;            // xyz: linear Rec. 709; w: roughness
+    float4 anisotropy;       // strength, cosine and sine of the rotation
     float4 volume;           // xyz: log2 of the transmittance of 1 m; w: thickness [object space]
     float4 transmission;     // factor
     float4 uv_x[USE_COUNT];  // xyz: u = dot(xyz, (texcoord, 1))
     float4 uv_y[USE_COUNT];  // xyz: v likewise
 };
-SHARED_ASSERT(material_row_size, sizeof(MaterialRow) == 128 + 32 * USE_COUNT);
+SHARED_ASSERT(material_row_size, sizeof(MaterialRow) == 144 + 32 * USE_COUNT);
 
 #if defined(__cplusplus)
 }  // namespace kilolux

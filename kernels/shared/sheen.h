@@ -4,12 +4,9 @@
 // BRDF").
 #ifndef KILOLUX_SHARED_SHEEN_H
 #define KILOLUX_SHARED_SHEEN_H
+#include "kernels/shared/ggx.h"
 #include "kernels/shared/power.h"
 #include "kernels/shared/types.h"
-
-// Perceptual roughness below which a lobe is too narrow for float32 and 2x16 normals (Filament's
-// limit).
-#define ROUGHNESS_MIN 0.045f
 
 // The extension's l(x) = a / (1 + b x^c) + d x + e: ROW(name, at_1, at_0) has
 // the values at alpha 1 and 0, mixed by (1 - alpha)^2.

@@ -3,12 +3,14 @@
 //
 // Compile-time switches: SHADING, HAS_METALLIC, HAS_SPECULAR (KHR_materials_ior and
 // KHR_materials_specular), HAS_CLEARCOAT (KHR_materials_clearcoat), HAS_SHEEN
-// (KHR_materials_sheen), HAS_TRANSMISSION (KHR_materials_transmission), HAS_UNLIT. Features that
-// the scene lacks are not compiled in; compiling them in changes no bit of the radiance.
+// (KHR_materials_sheen), HAS_ANISOTROPY (ggx.h), HAS_TRANSMISSION (KHR_materials_transmission),
+// HAS_UNLIT. Features that the scene lacks are not compiled in; compiling them in changes no bit of
+// the radiance.
 #ifndef KILOLUX_SHARED_SURFACE_H
 #define KILOLUX_SHARED_SURFACE_H
 #include "kernels/shared/evaluate_modes.h"
 #include "kernels/shared/gbuffer.h"
+#include "kernels/shared/ggx.h"
 #include "kernels/shared/sheen.h"
 #include "kernels/shared/types.h"
 
@@ -45,9 +47,6 @@
 #define HAS_COAT (HAS_CLEARCOAT != 0 && SHADING == SHADING_PBR)
 #define HAS_SHEEN_LOBE (HAS_SHEEN != 0 && SHADING == SHADING_PBR)
 
-// Smallest cosine of the angle between normal and eye (Filament, MIN_N_DOT_V).
-#define N_DOT_V_MIN 1e-4f
-
 #if defined(__cplusplus)
 namespace kilolux {
 #endif
@@ -79,15 +78,6 @@ SHARED_FN Surface default_surface() {
 // Unlit surfaces send their emissive light alone.
 SHARED_FN MASK is_lit(Surface s) { return s.roughness > fv(UNLIT_ROUGHNESS); }
 
-// A GGX lobe as the eye sees it.
-SHARED_PLAIN_STRUCT(GgxLobe) {
-    FV n_dot_v;
-    FV alpha;    // roughness^2
-    FV alpha2;   // roughness^4
-    FV slope;    // (1 - alpha2) / alpha
-    FV smith_v;  // sqrt(n.v^2 (1 - alpha2) + alpha2)
-};
-
 // The values of a surface that are the same for all lights.
 SHARED_PLAIN_STRUCT(ShadingPoint) {
     FV3 position;
@@ -114,21 +104,6 @@ SHARED_PLAIN_STRUCT(ShadingPoint) {
     FV sheen_most;  // the largest channel of its colour
 #endif
 };
-
-SHARED_FN FV clamped_alpha(FV roughness) {
-    FV r = max(roughness, fv(ROUGHNESS_MIN));
-    return r * r;
-}
-
-SHARED_FN GgxLobe make_ggx_lobe(FV3 normal, FV3 to_eye, FV roughness) {
-    GgxLobe lobe;
-    lobe.alpha = clamped_alpha(roughness);
-    lobe.alpha2 = lobe.alpha * lobe.alpha;
-    lobe.slope = (fv(1.0f) - lobe.alpha2) / lobe.alpha;
-    lobe.n_dot_v = max(dot3(normal, to_eye), fv(N_DOT_V_MIN));
-    lobe.smith_v = lane_sqrt(fma(lobe.n_dot_v * lobe.n_dot_v, fv(1.0f) - lobe.alpha2, lobe.alpha2));
-    return lobe;
-}
 
 // Reflectance head on of a surface whose dielectric part has `dielectric`.
 SHARED_FN FV3 mixed_f0(Surface s, FV3 dielectric) {
@@ -190,6 +165,9 @@ SHARED_FN ShadingPoint make_shading_point(Surface s, bool orthographic) {
     p.exponent = fv(1.0f) / (alpha * alpha) - fv(1.0f);
 #elif SHADING == SHADING_PBR
     p.lobe = make_ggx_lobe(s.normal, p.to_eye, s.roughness);
+#if HAS_ANISOTROPY
+    p.lobe = stretched_lobe(p.lobe, p.to_eye, s.tangent, s.anisotropy);
+#endif
 #endif
 #if F0_VARIES
     p.f0 = mixed_f0(s, dielectric_f0(s));

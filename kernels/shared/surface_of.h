@@ -8,8 +8,8 @@
 //   prefetch_map(map, at)                   asks the caches for what a Lookup reads
 //
 // TEXTURE_USES has the bit 1 << USE_* of every texture that some material of the scene has and the
-// G-buffer keeps. HAS_SPECULAR, HAS_CLEARCOAT, HAS_SHEEN, HAS_TRANSMISSION, HAS_UNLIT: see
-// surface.h.
+// G-buffer keeps. HAS_SPECULAR, HAS_CLEARCOAT, HAS_SHEEN, HAS_ANISOTROPY, HAS_TRANSMISSION,
+// HAS_UNLIT: see surface.h.
 // HAS_UNLIT_MATERIALS: some are unlit.
 #ifndef KILOLUX_SHARED_SURFACE_OF_H
 #define KILOLUX_SHARED_SURFACE_OF_H
@@ -150,20 +150,24 @@ SHARED_FN FV3 unit_or_z(FV3 v) {
 }
 
 #if HAS_TANGENT
+// The basis (tangent, bitangent, `normal`) times a vector. MikkTSpace: as interpolated,
+// unnormalised.
+SHARED_FN FV3 from_tangent_space(IN(Fragment) f, FV x, FV y, FV z) {
+    FV3 n = AT(f).normal, t = AT(f).tangent;
+    FV3 b = scale3(cross3(n, t), AT(f).handedness);
+    return fv3(fma(z, n.x, fma(y, b.x, x * t.x)), fma(z, n.y, fma(y, b.y, x * t.y)),
+               fma(z, n.z, fma(y, b.z, x * t.z)));
+}
+
 // The interpolated normal, turned by the map of the use, whose x and y are scaled.
 SHARED_FN FV3 mapped_normal(IN(Textures) textures, IN(Fragment) f, uint use, float scale) {
     FV3 n = AT(f).normal;
     if (MATERIAL(AT(textures).material).textures[use] == SURFACE_ABSENT) return n;
-    // MikkTSpace: the basis as interpolated, unnormalised, and the sum normalised.
     FV4 texel = sample_use(textures, f, use);
     FV x = fma(texel.x, fv(2.0f), fv(-1.0f)) * scale;
     FV y = fma(texel.y, fv(2.0f), fv(-1.0f)) * scale;
     FV z = fma(texel.z, fv(2.0f), fv(-1.0f));
-    FV3 bitangent = scale3(cross3(AT(f).normal, AT(f).tangent), AT(f).handedness);
-    FV3 mapped = fv3(fma(z, n.x, fma(y, bitangent.x, x * AT(f).tangent.x)),
-                     fma(z, n.y, fma(y, bitangent.y, x * AT(f).tangent.y)),
-                     fma(z, n.z, fma(y, bitangent.z, x * AT(f).tangent.z)));
-    return select3(lane_mask(AT(f).handedness != fv(0.0f)), mapped, n);
+    return select3(lane_mask(AT(f).handedness != fv(0.0f)), from_tangent_space(f, x, y, z), n);
 }
 #endif
 
@@ -262,6 +266,35 @@ SHARED_FN Surface with_transmission(IN(Textures) textures, IN(Fragment) f, Surfa
 }
 #endif
 
+#if HAS_ANISOTROPY && HAS_TANGENT
+// KHR_materials_anisotropy: the line along which highlights stretch, perpendicular to the normal
+// that is lit. Surfaces without tangents stay round. Seen from behind, normal, tangent and
+// bitangent turn round: the line stays.
+SHARED_FN Surface with_anisotropy(IN(Textures) textures, IN(Fragment) f, Surface s) {
+    MaterialRef material = AT(textures).material;
+    float4 factors = MATERIAL(material).row.anisotropy;
+    FV strength = fv(factors.x), x = fv(1.0f), y = fv(0.0f);
+#if HAS_USE(USE_ANISOTROPY)
+    if (MATERIAL(material).textures[USE_ANISOTROPY] != SURFACE_ABSENT) {
+        FV4 texel = sample_use(textures, f, USE_ANISOTROPY);
+        x = fma(texel.x, fv(2.0f), fv(-1.0f));
+        y = fma(texel.y, fv(2.0f), fv(-1.0f));
+        strength *= texel.z;
+    }
+#endif
+    FV3 t = from_tangent_space(f, fma(x, fv(factors.y), -y * factors.z),
+                               fma(x, fv(factors.z), y * factors.y), fv(0.0f));
+    FV along = dot3(s.normal, t);
+    t = fv3(fma(-along, s.normal.x, t.x), fma(-along, s.normal.y, t.y),
+            fma(-along, s.normal.z, t.z));
+    FV square = dot3(t, t);
+    MASK has_line = lane_mask(square > fv(1e-12f));
+    s.tangent = scale3(t, fv(1.0f) / lane_sqrt(lane_select(has_line, square, fv(1.0f))));
+    s.anisotropy = lane_select(has_line, strength, fv(0.0f));
+    return s;
+}
+#endif
+
 // KHR_materials_unlit: the base colour leaves the surface, whatever the lights.
 SHARED_FN Surface with_unlit(MaterialRef material, Surface s) {
 #if HAS_UNLIT
@@ -321,6 +354,9 @@ SHARED_FN Surface surface_of_material(IN(Textures) textures, IN(Fragment) f) {
 #endif
 #if HAS_TRANSMISSION
     s = with_transmission(textures, f, s);
+#endif
+#if HAS_ANISOTROPY && HAS_TANGENT
+    s = with_anisotropy(textures, f, s);
 #endif
 #if HAS_UNLIT || HAS_UNLIT_MATERIALS
     s = with_unlit(material, s);

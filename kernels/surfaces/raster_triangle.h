@@ -15,7 +15,6 @@
 #ifndef KILOLUX_DEVICE_RASTER_TRIANGLE_H
 #define KILOLUX_DEVICE_RASTER_TRIANGLE_H
 #include "kernels/device/triangle.h"
-#include "kernels/shared/raster_row.h"
 #include "kernels/surfaces/exact_sign.h"
 
 // 2^-20 is 16 * 2^-24; 2^-36 bounds the parts that exact_sign.h cuts off.

@@ -167,6 +167,27 @@ TEST(Reflections, SheenReflectsTheRoomOverWhatIsBelow) {
     }
 }
 
+Material brushed_metal(double roughness, double strength) {
+    Material out = material_of(roughness, 1.0);
+    out.anisotropy_strength = static_cast<float>(strength);
+    out.anisotropy_rotation = 0.5f;
+    return out;
+}
+
+// A few narrow lobes stand for a stretched one.
+TEST(Reflections, StretchedHighlightsReflectTheRoom) {
+    const Map white = map_of([](const glm::dvec3&) { return glm::dvec3(1.0); });
+    const Map map = map_of(room);
+    for (const double roughness : {0.25, 0.5}) {
+        for (const double strength : {0.25, 0.5, 1.0}) {
+            const Material metal = brushed_metal(roughness, strength);
+            EXPECT_LT(pictures(white, metal).error(), 0.1) << roughness << ' ' << strength;
+            EXPECT_LT(pictures(map, metal).error(), 0.22) << roughness << ' ' << strength;
+        }
+    }
+    EXPECT_LT(pictures(map, brushed_metal(1.0, 1.0)).error(), 0.12) << "as wide along as across";
+}
+
 TEST(Reflections, AMirrorShowsTheRoom) {
     Material mirror = material_of(0.0, 1.0);
     mirror.base_color = glm::vec4(1.0f);

@@ -7,12 +7,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/measure/reference/decoded_samples.h"
-#include "host/measure/reference/ray_cast_reference.h"
 #include "host/measure/reference/reference_brdf.h"
 #include "host/measure/reference/reference_sheen.h"
-#include "tests/support/render_fixture.h"
-#include "tests/support/sphere_scene.h"
+#include "tests/support/lobe_pictures.h"
 
 namespace kilolux {
 namespace {
@@ -105,94 +102,19 @@ TEST(Sheen, IsReciprocal) {
     }
 }
 
-const Camera kCamera = look_at({0.5, 0.8, 4.0}, {0, 0, 0}, {0, 1, 0}, 0.55);
-
-Scene lit_cloth() {
-    Scene scene = cloth_scene();
-    for (int i = 0; i < 12; ++i) {
-        const double angle = 0.5 * i;
-        SceneLight light;
-        light.type = i % 3 == 0 ? LightType::spot : LightType::point;
-        light.position = {2.5 * std::cos(angle), 0.4 * i - 2.0, 2.5 * std::sin(angle)};
-        light.direction = -glm::normalize(light.position);
-        light.intensity = glm::vec3(9, 8, 7);
-        light.range = 9.0f;
-        scene.lights.push_back(light);
-    }
-    SceneLight sun;
-    sun.type = LightType::directional;
-    sun.direction = -glm::normalize(glm::dvec3(1, 2, 1));
-    sun.intensity = glm::vec3(0.4f);
-    scene.lights.push_back(sun);
-    return scene;
-}
-
-RenderSettings cloth_settings(uint gbuffer) {
-    RenderSettings settings = small_settings(96, 96, 0);
-    settings.gbuffer = gbuffer;
-    settings.ambient = 0.1f;
-    return settings;
-}
-
-// Relative differences at the pixels that a float64 ray finds off the sphere's silhouette.
-std::vector<double> differences(const Scene& scene, const RenderSettings& settings) {
-    const SurfaceSamples samples = RayCaster(scene).cast(kCamera, settings.width, settings.height);
-    const ReferencePicture expected =
-        shade_reference(samples, reference_lights(scene.lights, kCamera, &scene),
-                        {.shading = Shading::pbr, .ambient = double{settings.ambient}});
-    const Frame frame = Renderer(scene, settings).render(kCamera, 0.0);
-    std::vector<double> out;
-    for (std::size_t i = 0; i < frame.radiance.size(); ++i) {
-        const SurfaceSample& s = samples.pixels[i / 3];
-        if (s.kind != SurfaceKind::lit) continue;
-        if (glm::dot(s.normal, -glm::normalize(s.position)) < 0.2) continue;
-        const double right = expected.radiance.rgb[i];
-        out.push_back(std::abs(frame.radiance[i] - right) / right);
-    }
-    return out;
-}
+Scene lit_cloth() { return with_ring_of_lights(cloth_scene()); }
 
 TEST(Sheen, EveryRendererShowsTheFloat64Reference) {
-    const Scene scene = lit_cloth();
-    for (const RendererKind renderer : {RendererKind::deferred, RendererKind::deferred_all,
-                                        RendererKind::forward, RendererKind::forward_plus}) {
-        RenderSettings settings = cloth_settings(GBUFFER_FULL);
-        settings.renderer = renderer;
-        const std::vector<double> found = differences(scene, settings);
-        EXPECT_GT(found.size(), 3000u);
-        EXPECT_LT(quantile(found, 0.5), 2e-5) << static_cast<int>(renderer);
-        EXPECT_LT(quantile(found, 0.99), 5e-4) << static_cast<int>(renderer);
-    }
-    EXPECT_LT(quantile(differences(scene, cloth_settings(GBUFFER_PACKED)), 0.5), 1e-2);
+    expect_reference_in_every_renderer(lit_cloth());
 }
 
-TEST(Sheen, ListsAndAllLightsAreTheSameBits) {
-    const Scene scene = lit_cloth();
-    RenderSettings settings = small_settings(96, 96, 200);
-    settings.shadows = Shadows::exact;
-    const Frame listed = Renderer(scene, settings).render(kCamera, 0.0);
-    for (const int lanes : {1, 4}) {
-        settings.kernels.lanes = lanes;
-        EXPECT_EQ(Renderer(scene, settings).render(kCamera, 0.0).radiance, listed.radiance);
-    }
-    settings.renderer = RendererKind::deferred_all;
-    EXPECT_EQ(Renderer(scene, settings).render(kCamera, 0.0).radiance, listed.radiance);
-}
+TEST(Sheen, ListsAndAllLightsAreTheSameBits) { expect_lists_and_all_lights_same(lit_cloth()); }
 
 TEST(Sheen, ABlackTextureIsTheMaterialWithoutIt) {
-    Scene scene = lit_cloth();
-    scene.images.push_back({"black", 1, 1, {0, 0, 0, 255}});
-    scene.textures.push_back({static_cast<int>(scene.images.size()) - 1, {}});
-    scene.materials[0].sheen_color_texture.texture = static_cast<int>(scene.textures.size()) - 1;
-    for (const uint layout : {GBUFFER_PACKED, GBUFFER_FULL}) {
-        const RenderSettings settings = cloth_settings(layout);
-        Scene plain = scene;
-        plain.materials[0].sheen_color = glm::vec3(0.0f);
-        Renderer without(plain, settings), with(scene, settings);
-        EXPECT_FALSE(without.plan().kernels.sheen);
-        EXPECT_TRUE(with.plan().kernels.sheen);
-        EXPECT_EQ(with.render(kCamera, 0.0).radiance, without.render(kCamera, 0.0).radiance);
-    }
+    Scene scene = lit_cloth(), plain = scene;
+    scene.materials[0].sheen_color_texture = add_texel(scene, {0, 0, 0, 255});
+    plain.materials[0].sheen_color = glm::vec3(0.0f);
+    expect_same_without(scene, plain, &SceneFeatures::sheen);
 }
 
 }  // namespace

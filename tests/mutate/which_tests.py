@@ -28,10 +28,10 @@ PICTURES = [("certify_tests", "All/HardCases.*Lanes16"), ("render_tests", "Paths
 
 # The first that fits a path below kernels/.
 STEPS = (
-    (r"shared/(evaluate|surface\.|light_sum|evaluate_modes|power|sheen)", LIGHTING + TAILS + PROFILES),
+    (r"shared/(evaluate|surface\.|light_sum|evaluate_modes|power|sheen|ggx)", LIGHTING + TAILS + PROFILES),
     (r"shared/(gbuffer|store|pack)", GBUFFER + PICTURES),
-    (r"shared/(texture|mips|surface_of|surface_scene|material|triangle)", SURFACES + PICTURES),
-    (r"shared/raster_row", TRIANGLES),
+    (r"shared/(texture|mips|surface_of|material|triangle)", SURFACES + PICTURES),
+    (r"shared/surface_scene", SURFACES + TRIANGLES + PICTURES),
     (r"shared/(hash|light_drift|light_order|light_transform|light\.)", LIGHTS + LIGHTING + TAILS),
     (r"shared/light_profile", PROFILES),
     (r"shared/light_tree", TREE),

@@ -47,6 +47,7 @@ KernelFeatures features_of(const Variant& v) {
     features.gbuffer = v.layout;
     features.material = features.metallic = features.occlusion = true;
     features.specular = features.clearcoat = features.sheen = features.unlit = true;
+    features.anisotropy = true;
     features.spot_lights = features.directional_lights = true;
     features.light_index_bits = v.light_index_bits;
     return features;

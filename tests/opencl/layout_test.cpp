@@ -11,7 +11,6 @@
 #include "host/gpu/buffer.h"
 #include "host/gpu/flow.h"
 #include "kernels/shared/light_drift.h"
-#include "kernels/shared/raster_row.h"
 #include "kernels/shared/surface_scene.h"
 #include "tests/support/test_gpu.h"
 
@@ -130,8 +129,7 @@ constexpr std::string_view kLayoutHeaders[] = {
     "kernels/shared/light_profile.h", "kernels/shared/cluster_grid.h",
     "kernels/shared/clusters.h",      "kernels/shared/gbuffer.h",
     "kernels/shared/light.h",         "kernels/shared/light_drift.h",
-    "kernels/shared/raster_row.h",    "kernels/shared/surface_scene.h",
-    "kernels/shared/view.h"};
+    "kernels/shared/surface_scene.h", "kernels/shared/view.h"};
 
 void expect_equal(const std::vector<Measure>& measures) {
     const Gpu gpu = test_gpu();

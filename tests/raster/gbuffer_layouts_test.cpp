@@ -62,7 +62,7 @@ TEST_F(GBufferLayoutsTest, ReadsAreThePlanesOfTheLayout) {
         for (const bool optional : {false, true}) {
             GBufferNeeds needs = make_needs(layout);
             needs.material = needs.occlusion = needs.specular = needs.unlit = optional;
-            needs.clearcoat = needs.sheen = optional && layout != GBUFFER_FULL;
+            needs.clearcoat = needs.sheen = needs.anisotropy = optional && layout != GBUFFER_FULL;
             const GBufferLayout planes = make_gbuffer_layout(needs, 16, 1);
             const TargetPlan plan = plan_targets(needs);
             std::vector<uint> expected;

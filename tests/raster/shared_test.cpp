@@ -99,6 +99,7 @@ std::vector<SharedStruct> shared_structs() {
           {"row.specular", offsetof(MaterialRow, specular)},
           {"row.clearcoat", offsetof(MaterialRow, clearcoat)},
           {"row.sheen", offsetof(MaterialRow, sheen)},
+          {"row.anisotropy", offsetof(MaterialRow, anisotropy)},
           {"row.uv_x[0]", offsetof(MaterialRow, uv_x)},
           {"row.uv_y[0]", offsetof(MaterialRow, uv_y)},
           {"textures[0]", offsetof(SurfaceMaterial, textures)},

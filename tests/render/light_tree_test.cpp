@@ -117,12 +117,30 @@ TEST(LightTreePictures, ErrWithinTheirBoundWithSheen) {
     }
 }
 
+// Lights beside the mirror direction, along the highlights, which are all light.
+TEST(LightTreePictures, ErrWithinTheirBoundWithAnisotropy) {
+    Scene scene = brushed_scene();
+    Material& m = scene.materials[0];
+    m.normal_texture = m.anisotropy_texture = {};
+    m.base_color = glm::vec4(1.0f);
+    m.metallic = 1.0f;
+    m.roughness = 0.2f;
+    m.anisotropy_rotation = 0.0f;
+    add_points(scene, 1500, {-4.5, -0.4, 1.5}, {4.5, 0.4, 4.5});
+    for (const float strength : {0.3f, 1.0f}) {
+        m.anisotropy_strength = strength;
+        for (const Tails tails : {Tails::tree, Tails::bounded}) {
+            const TailAgreement found = compare_coated(scene, tails);
+            EXPECT_EQ(found.below, 0) << strength;
+            EXPECT_GT(found.looseness.size(), 500u) << strength;
+        }
+    }
+}
+
 // All surfaces are turned away from all lights, their coats are not.
 TEST(LightTreePictures, CountNodesThatOnlyCoatsFace) {
     Scene scene = car_paint_scene();
-    scene.images.push_back({"west", 1, 1, {0, 128, 140, 255}});
-    scene.textures.push_back({static_cast<int>(scene.images.size()) - 1, {}});
-    scene.materials[0].normal_texture.texture = static_cast<int>(scene.textures.size()) - 1;
+    scene.materials[0].normal_texture = add_texel(scene, {0, 128, 140, 255});
     scene.materials[0].normal_scale = 1.0f;
     scene.materials[0].clearcoat_normal_texture = {};
     add_points(scene, 300, {5, 0, 1}, {6, 1, 2});

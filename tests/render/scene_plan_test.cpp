@@ -26,6 +26,7 @@ constexpr Switch kSwitches[] = {
     {"specular", "HAS_SPECULAR=0", "HAS_SPECULAR=1"},
     {"clearcoat", "HAS_CLEARCOAT=0", "HAS_CLEARCOAT=1"},
     {"sheen", "HAS_SHEEN=0", "HAS_SHEEN=1"},
+    {"anisotropy", "HAS_ANISOTROPY=0", "HAS_ANISOTROPY=1"},
     {"unlit", "HAS_UNLIT=0", "HAS_UNLIT=1"},
     {"wide-light-index", "LIGHT_INDEX=ushort", "LIGHT_INDEX=uint"}};
 
@@ -53,6 +54,7 @@ Scene scene_with(const std::string& feature) {
     if (feature == "specular") material.ior = 1.33f;
     if (feature == "clearcoat") material.clearcoat = 0.5f;
     if (feature == "sheen") material.sheen_color.y = 0.5f;
+    if (feature == "anisotropy") material.anisotropy_strength = 0.5f;
     if (feature == "unlit") material.unlit = true;
     if (feature == "occlusion") {
         scene.images.push_back({"white", 1, 1, {255, 255, 255, 255}});
@@ -169,7 +171,12 @@ TEST(ScenePlan, ShaderVariantsHoldWhatTheirMaterialNeeds) {
     Material m;
     m.normal_texture.texture = 0;
     EXPECT_EQ(features_of(m, true).texture_uses, 1u << USE_NORMAL);
+    EXPECT_TRUE(features_of(m, true).tangents);
     EXPECT_EQ(features_of(m, false), SurfaceFeatures{}) << "a mesh without tangents";
+    m = {};
+    m.anisotropy_strength = 0.1f;
+    EXPECT_TRUE(features_of(m, true).tangents);
+    EXPECT_FALSE(features_of(m, false).tangents);
     m = {};
     m.alpha_mode = AlphaMode::mask;
     EXPECT_TRUE(features_of(m, false).masks);

@@ -51,6 +51,9 @@ Material everything_material() {
     m.sheen_color_texture = {0, 1, glm::mat3(1.0f)};
     m.sheen_roughness = 0.6f;
     m.sheen_roughness_texture = {1, 0, glm::mat3(1.0f)};
+    m.anisotropy_strength = 0.4f;
+    m.anisotropy_rotation = -2.5f;
+    m.anisotropy_texture = {0, 0, glm::mat3(1.0f)};
     m.transmission = 0.4f;
     m.transmission_texture = {0, 1, glm::mat3(1.0f)};
     m.thickness = 0.01f;
@@ -191,6 +194,7 @@ struct Materials {
         if (!same_use(m.sheen_color_texture, n.sheen_color_texture)) return "sheen's texture";
         if (!same_use(m.sheen_roughness_texture, n.sheen_roughness_texture))
             return "sheen's roughness texture";
+        if (!same_use(m.anisotropy_texture, n.anisotropy_texture)) return "anisotropy's texture";
         if (!same_use(m.transmission_texture, n.transmission_texture))
             return "transmission's texture";
         if (!same_use(m.thickness_texture, n.thickness_texture)) return "thickness texture";
@@ -218,6 +222,9 @@ std::string factor_difference(const Material& a, const Material& b) {
         a.clearcoat_normal_scale != b.clearcoat_normal_scale)
         return "coat's normal scale";
     if (a.sheen_color != b.sheen_color || a.sheen_roughness != b.sheen_roughness) return "sheen";
+    if (a.anisotropy_strength != b.anisotropy_strength ||
+        a.anisotropy_rotation != b.anisotropy_rotation)
+        return "anisotropy";
     if (a.transmission != b.transmission) return "transmission";
     if (a.thickness != b.thickness || a.attenuation_distance != b.attenuation_distance ||
         a.attenuation_color != b.attenuation_color)

@@ -86,6 +86,10 @@ void add_materials(GltfBuilder& file) {
           {"sheenColorTexture", {{"index", jpeg}, {"texCoord", 1}}},
           {"sheenRoughnessFactor", 0.375},
           {"sheenRoughnessTexture", {{"index", webp}}}}},
+        {"KHR_materials_anisotropy",
+         {{"anisotropyStrength", 0.75},
+          {"anisotropyRotation", -4.5},
+          {"anisotropyTexture", {{"index", jpeg}}}}},
         {"KHR_materials_transmission",
          {{"transmissionFactor", 0}, {"transmissionTexture", {{"index", webp}}}}},
         {"KHR_materials_volume",
@@ -163,10 +167,10 @@ GltfBuilder every_feature_file() {
         "KHR_mesh_quantization",      "KHR_materials_emissive_strength",
         "KHR_materials_unlit",        "KHR_materials_ior",
         "KHR_materials_specular",     "KHR_materials_clearcoat",
-        "KHR_materials_sheen",        "KHR_materials_transmission",
-        "KHR_materials_volume",       "EXT_meshopt_compression",
-        "KHR_draco_mesh_compression", "EXT_texture_webp",
-        "KHR_node_visibility"};
+        "KHR_materials_sheen",        "KHR_materials_anisotropy",
+        "KHR_materials_transmission", "KHR_materials_volume",
+        "EXT_meshopt_compression",    "KHR_draco_mesh_compression",
+        "EXT_texture_webp",           "KHR_node_visibility"};
     file.root["extensionsUsed"] = file.root["extensionsRequired"];
     return file;
 }

@@ -39,6 +39,15 @@ inline Scene sphere_scene(const Material& material) {
     return scene;
 }
 
+/// A texture of one texel.
+inline TextureUse add_texel(Scene& scene, const std::vector<std::uint8_t>& rgba) {
+    scene.images.push_back({"texel", 1, 1, rgba});
+    scene.textures.push_back({static_cast<int>(scene.images.size()) - 1, {}});
+    TextureUse use;
+    use.texture = static_cast<int>(scene.textures.size()) - 1;
+    return use;
+}
+
 /// A texture of `size` x `size` random texels whose channels are at least `least`.
 inline TextureUse add_noise(Scene& scene, int size, unsigned seed, std::array<unsigned, 3> least,
                             unsigned least_alpha = 255) {
@@ -86,6 +95,21 @@ inline Scene cloth_scene() {
     scene.materials[0].normal_texture = add_noise(scene, 32, 1, {64, 64, 192});
     scene.materials[0].sheen_color_texture = add_noise(scene, 16, 2, {128, 128, 128});
     scene.materials[0].sheen_roughness_texture = add_noise(scene, 16, 3, {0, 0, 0}, 128);
+    return scene;
+}
+
+/// Brushed metal: stretched highlights of a map, turned.
+inline Scene brushed_scene() {
+    Material m;
+    m.base_color = {0.9f, 0.7f, 0.5f, 1.0f};
+    m.metallic = 0.8f;
+    m.roughness = 0.35f;
+    m.normal_scale = 0.2f;
+    m.anisotropy_strength = 0.9f;
+    m.anisotropy_rotation = 0.6f;
+    Scene scene = sphere_scene(m);
+    scene.materials[0].normal_texture = add_noise(scene, 32, 1, {0, 0, 192});
+    scene.materials[0].anisotropy_texture = add_noise(scene, 16, 2, {160, 64, 128});
     return scene;
 }
 

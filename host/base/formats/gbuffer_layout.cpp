@@ -39,6 +39,8 @@ constexpr PlaneRow kPlanes[] = {
     {PLANE_COAT_NORMAL_Z, {0, 4, 0, 0, 0}, &N::clearcoat},
     {PLANE_SHEEN, {4, 0, 4, 4, 4}, &N::sheen},
     {PLANE_SHEEN_ROUGHNESS, {0, 4, 0, 0, 0}, &N::sheen},
+    {PLANE_ANISOTROPY, {4, 0, 4, 4, 4}, &N::anisotropy},
+    {PLANE_ANISOTROPY_F, {0, 4, 0, 0, 0}, &N::anisotropy},
     {PLANE_TRANSMISSION, {4, 0, 4, 4, 4}, &N::transmission},
     {PLANE_TRANSMISSION_F, {0, 4, 0, 0, 0}, &N::transmission},
 };

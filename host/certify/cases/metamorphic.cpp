@@ -100,6 +100,8 @@ std::vector<SurfaceSample> random_surfaces(uint width, uint height) {
         s.coat_normal = s.normal;
         s.sheen = {random.unit(), random.unit(), random.unit()};
         s.sheen_roughness = random.uniform(0.1, 1.0);
+        s.tangent = glm::normalize(glm::cross(s.normal, random.direction()));
+        s.anisotropy = random.unit();
         surfaces.push_back(s);
     }
     return surfaces;
@@ -115,6 +117,7 @@ std::vector<SurfaceSample> mirrored(const std::vector<SurfaceSample>& surfaces) 
         s.position.x = -s.position.x;
         s.normal.x = -s.normal.x;
         s.coat_normal.x = -s.coat_normal.x;
+        s.tangent.x = -s.tangent.x;
         out[i - x + (kMirrorWidth - 1 - x)] = s;
     }
     return out;

@@ -62,14 +62,19 @@ void fill_values(Synthetic& image, const DepthOf& depth, Random& random) {
             if (!std::isnan(z)) p = position_at(view, x + 0.5, y + 0.5, z);
             if (!full) p = world_from_view(view, p) + camera;
             image.put(PLANE_POSITION_X, pixel, p);
-            image.put(PLANE_NORMAL_X, pixel, random.direction());
+            const glm::dvec3 normal = random.direction();
+            image.put(PLANE_NORMAL_X, pixel, normal);
             if (!full) continue;
             for (uint plane = PLANE_ALBEDO_R; plane < PLANE_COUNT; ++plane) {
                 const bool stored = image.layout.offset_bytes[plane] != PLANE_ABSENT;
                 if (stored) image.put(plane, pixel, random.unit());
             }
-            if (image.layout.offset_bytes[PLANE_COAT_NORMAL_X] == PLANE_ABSENT) continue;
-            image.put(PLANE_COAT_NORMAL_X, pixel, random.direction());
+            const auto turn = [&](uint plane, const glm::dvec3& direction) {
+                if (image.layout.offset_bytes[plane] == PLANE_ABSENT) return;
+                image.put(plane, pixel, direction);
+            };
+            turn(PLANE_COAT_NORMAL_X, random.direction());
+            turn(PLANE_TANGENT_X, glm::normalize(glm::cross(normal, random.direction())));
         }
     }
 }

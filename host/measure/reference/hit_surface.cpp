@@ -117,22 +117,43 @@ glm::dvec3 smooth_normal(const SurfaceHit& hit) {
     return interpolated_direction(hit, normals, cofactors * orientation(hit));
 }
 
-// The normal on the side that is seen, by the map of a use, whose x and y are scaled.
-glm::dvec3 mapped_normal(const SurfaceHit& hit, const Footprints& uv, int use, double scale) {
-    const double side = front_facing(hit) ? 1.0 : -1.0;
+// The basis of tangent space, as interpolated, unnormalised; zero columns without tangents.
+glm::dmat3 tangent_space(const SurfaceHit& hit) {
     const glm::dvec3 normal = smooth_normal(hit);
-    const MaterialMap& of_use = kMaterialMaps[static_cast<std::size_t>(use)];
     const auto& tangents = mesh_of(hit).tangents;
-    if (!(material_of(hit).*of_use.member).present() || tangents.empty()) {
-        return unit_or_zero(normal) * side;
-    }
+    if (tangents.empty()) return {glm::dvec3(0.0), glm::dvec3(0.0), normal};
     const glm::dmat3 world_from_object(instance_of(hit).world_from_object);
     const glm::dvec3 tangent = interpolated_direction(hit, tangents, world_from_object);
     const double w = interpolated<glm::dvec4>(hit, tangents, hit.hit.weights).w;
-    const glm::dvec3 bitangent = glm::cross(normal, tangent) * (w * orientation(hit));
+    return {tangent, glm::cross(normal, tangent) * (w * orientation(hit)), normal};
+}
+
+// The normal on the side that is seen, by the map of a use, whose x and y are scaled.
+glm::dvec3 mapped_normal(const SurfaceHit& hit, const Footprints& uv, int use, double scale) {
+    const double side = front_facing(hit) ? 1.0 : -1.0;
+    const MaterialMap& of_use = kMaterialMaps[static_cast<std::size_t>(use)];
+    if (!(material_of(hit).*of_use.member).present() || mesh_of(hit).tangents.empty()) {
+        return unit_or_zero(smooth_normal(hit)) * side;
+    }
     const glm::dvec3 map = 2.0 * glm::dvec3(texel(hit, use, uv)) - 1.0;
-    const glm::dvec3 sum = tangent * (map.x * scale) + bitangent * (map.y * scale) + normal * map.z;
-    return unit_or_zero(sum) * side;
+    const glm::dvec3 scaled(map.x * scale, map.y * scale, map.z);
+    return unit_or_zero(tangent_space(hit) * scaled) * side;
+}
+
+// The direction of KHR_materials_anisotropy in the plane of the normal that is seen.
+void set_anisotropy(const SurfaceHit& hit, const Footprints& uv, SurfaceSample& out) {
+    const Material& m = material_of(hit);
+    glm::dvec3 map(1.0, 0.0, 1.0);
+    if (m.anisotropy_texture.present()) {
+        const glm::dvec4 of_texture = texel(hit, USE_ANISOTROPY, uv);
+        map = {2.0 * of_texture.x - 1.0, 2.0 * of_texture.y - 1.0, of_texture.z};
+    }
+    const double c = std::cos(double{m.anisotropy_rotation});
+    const double s = std::sin(double{m.anisotropy_rotation});
+    const glm::dvec3 turned(c * map.x - s * map.y, s * map.x + c * map.y, 0.0);
+    const glm::dvec3 line = tangent_space(hit) * turned;
+    out.tangent = unit_or_zero(line - glm::dot(line, out.normal) * out.normal);
+    if (out.tangent != glm::dvec3(0.0)) out.anisotropy = m.anisotropy_strength * map.z;
 }
 
 void set_coat(const SurfaceHit& hit, const Footprints& uv, SurfaceSample& out) {
@@ -216,6 +237,7 @@ SurfaceSample surface_at(const SurfaceHit& hit) {
     set_reflectance(hit, uv, out);
     set_coat(hit, uv, out);
     set_sheen(hit, uv, out);
+    set_anisotropy(hit, uv, out);
     set_transmission(hit, uv, out);
     out.blended = is_blended(material);
     out.coverage = coverage_at(hit);

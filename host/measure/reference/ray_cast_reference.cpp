@@ -88,6 +88,7 @@ std::vector<SurfaceSamples> RayCaster::cast_layers(const Camera& camera, int wid
             if (i == out.size()) out.push_back(make_surface_samples(width, height));
             out[i].at(x, y) = sample;
         }
+        sample.tangent = view_from_world * sample.tangent;
     };
     const auto cast_row = [&](int y) {
         for (int x = 0; x < width; ++x) cast_pixel(x, y);

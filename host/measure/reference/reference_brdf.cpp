@@ -85,13 +85,34 @@ double lobe_of(const glm::dvec3& n, double alpha2, const glm::dvec3& v, const gl
     return ggx(sin2(n, half_vector(v, l)), alpha2) * smith_visibility(n_dot_l, n_dot_v, alpha2);
 }
 
+// D V stretched along the surface's tangent (KHR_materials_anisotropy).
+double stretched_lobe(const SurfaceSample& s, const glm::dvec3& v, const glm::dvec3& l) {
+    const double across2 = alpha2_of(s.roughness), across = std::sqrt(across2);
+    const double along = std::lerp(across, 1.0, s.anisotropy * s.anisotropy);
+    const glm::dvec3 h = half_vector(v, l), t = s.tangent;
+    const double t_h = glm::dot(t, h), b_h = glm::dot(glm::cross(s.normal, t), h);
+    const double n_h2 = 1.0 - sin2(s.normal, h);
+    const double x = t_h * t_h / (along * along) + b_h * b_h / across2 + n_h2;
+    // Of a unit direction: |(along d.t, across d.b, d.n)|.
+    const auto smith = [&](double n_dot, double t_dot) {
+        return std::sqrt(n_dot * n_dot * (1.0 - across2) + across2 +
+                         t_dot * t_dot * (along * along - across2));
+    };
+    const double n_dot_l = std::max(glm::dot(s.normal, l), 0.0);
+    const double n_dot_v = std::max(glm::dot(s.normal, v), kNDotVMin);
+    const double over =
+        n_dot_l * smith(n_dot_v, glm::dot(t, v)) + n_dot_v * smith(n_dot_l, glm::dot(t, l));
+    return 0.5 / (over * std::numbers::pi * along * across * x * x);
+}
+
 glm::dvec3 pbr(const SurfaceSample& s, const glm::dvec3& v, const glm::dvec3& l) {
     const glm::dvec3 h = half_vector(v, l);
     const glm::dvec3 f0 = f0_of(s);
     const double schlick = std::pow(std::max(1.0 - glm::dot(v, h), 0.0), 5.0);
     const double f90 = 1.0 - (1.0 - s.metallic) * (1.0 - s.specular_f90);
     const glm::dvec3 fresnel = f0 + (f90 - f0) * schlick;
-    const double lobe = lobe_of(s.normal, alpha2_of(s.roughness), v, l);
+    const double lobe = s.anisotropy > 0.0 ? stretched_lobe(s, v, l)
+                                           : lobe_of(s.normal, alpha2_of(s.roughness), v, l);
     // glTF's appendix B mixes whole BRDFs by metallic. Here, as in the kernels, F0 is mixed first
     // and both lobes share one F.
     return diffuse_of(s) * (1.0 - diffuse_loss(s, schlick)) + fresnel * lobe;

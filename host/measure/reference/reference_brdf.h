@@ -18,7 +18,8 @@ namespace kilolux {
 ///              height-correlated Smith V (Heitz 2014) and Schlick's F at v.h.
 /// F0 = mix(specular, albedo, metallic), F90 = mix(specular_f90, 1, metallic); diffuse light loses
 /// the dielectric part's strongest channel of F (KHR_materials_specular). alpha = max(roughness,
-/// 0.045)^2, n.v is at least 1e-4. `model` must not be Shading::automatic.
+/// 0.045)^2, n.v is at least 1e-4. KHR_materials_anisotropy stretches GGX and V.
+/// `model` must not be Shading::automatic.
 glm::dvec3 reference_brdf(const SurfaceSample& surface, const glm::dvec3& to_eye,
                           const glm::dvec3& to_light, Shading model);
 

@@ -58,9 +58,14 @@ constexpr MaterialFeature kMaterialFeatures[] = {
     {&F::clearcoat, [](const Material& m) { return !m.unlit && m.clearcoat > 0.0f; }, SHADING_PBR},
     {&F::sheen, [](const Material& m) { return !m.unlit && m.sheen_color != glm::vec3(0.0f); },
      SHADING_PBR},
+    {&F::anisotropy, [](const Material& m) { return !m.unlit && m.anisotropy_strength > 0.0f; },
+     SHADING_PBR},
     {&F::transmission, [](const Material& m) { return m.transmission > 0.0f; }},
     {&F::unlit_materials, [](const Material& m) { return m.unlit; }},
-    {&F::normal_maps, [](const Material& m) { return tangent_map(m).present(); }},
+    {&F::normal_maps,
+     [](const Material& m) {
+         return m.normal_texture.present() || m.clearcoat_normal_texture.present();
+     }},
     {&F::alpha_mask, [](const Material& m) { return m.alpha_mode == AlphaMode::mask; }},
     {&F::alpha_blend, [](const Material& m) { return is_blended(m); }},
 };

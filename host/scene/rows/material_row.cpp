@@ -2,6 +2,7 @@
 #include "host/scene/rows/material_row.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "host/scene/material_table.h"
 
@@ -28,6 +29,8 @@ MaterialRow material_row(const Material& material) {
         const auto values = factor_values(material, factor);
         std::ranges::copy(values, &(row.*factor.row).x + factor.component);
     }
+    row.anisotropy.y = std::cos(material.anisotropy_rotation);
+    row.anisotropy.z = std::sin(material.anisotropy_rotation);
     for (int use = 0; use < USE_COUNT; ++use) {
         const glm::mat3& m = texture_use(material, use).uv_from_texcoord;
         row.uv_x[use] = {m[0].x, m[1].x, m[2].x, 0.0f};

@@ -2,6 +2,7 @@
 #include "host/scene/rows/surface_rows.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <utility>
 
 #include "host/base/error.h"
@@ -69,6 +70,7 @@ std::vector<SurfaceMaterial> surface_materials(const Scene& scene, const Texture
 void add_use(SurfaceFeatures& out, const Scene& scene, const TextureUse& texture, int use) {
     const Sampler& sampler = scene.textures[static_cast<std::size_t>(texture.texture)].sampler;
     out.texture_uses |= 1u << use;
+    out.tangents |= (TANGENT_USES & (1u << use)) != 0;
     (texture.uv_set == 1 ? out.texcoord1 : out.texcoord0) = true;
     out.uv_transform |= texture.uv_from_texcoord != glm::mat3(1.0f);
     out.nearest |= !is_trilinear(sampler);
@@ -78,6 +80,10 @@ void add_use(SurfaceFeatures& out, const Scene& scene, const TextureUse& texture
 void add_mesh(SurfaceFeatures& out, const Scene& scene, const Mesh& mesh, uint uses) {
     out.masks |= material_of(scene, mesh).alpha_mode == AlphaMode::mask;
     out.vertex_color |= !mesh.colors.empty();
+    const bool stretches = std::ranges::any_of(looks_of(scene, mesh), [](const Material* material) {
+        return material->anisotropy_strength > 0.0f;
+    });
+    out.tangents |= stretches && (uses & (1u << USE_ANISOTROPY)) != 0 && !mesh.tangents.empty();
     for (int use = 0; use < USE_COUNT; ++use) {
         if (!reads_use(scene, mesh, use) || (uses & (1u << use)) == 0) continue;
         for (const Material* material : looks_of(scene, mesh)) {

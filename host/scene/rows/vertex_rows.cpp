@@ -48,8 +48,7 @@ MeshRow vertex_layout(const Mesh& mesh, const SurfaceFeatures& features) {
         return floats - size;
     };
     row.normal = attribute(!features.coverage && !mesh.normals.empty(), 3);
-    const bool maps = (features.texture_uses & TANGENT_USES) != 0;
-    row.tangent = attribute(maps && !mesh.tangents.empty(), 4);
+    row.tangent = attribute(features.tangents && !mesh.tangents.empty(), 4);
     row.texcoord0 = attribute(features.texcoord0 && !mesh.texcoords[0].empty(), 2);
     row.texcoord1 = attribute(features.texcoord1 && !mesh.texcoords[1].empty(), 2);
     row.color = attribute(features.vertex_color && !mesh.colors.empty(), 4);

@@ -36,8 +36,10 @@ InstructionCounts blinn_phong_instructions() {
 }
 
 InstructionCounts pbr_instructions(const KernelFeatures& kernels) {
+    // b.h 3, its square 1, GGX 1; t.l 4, its square 1, Smith 1.
+    const InstructionCounts ggx = kGgx + InstructionCounts{kernels.anisotropy ? 11.0 : 0.0};
     // Schlick 3, inverse root 1, 2 + 3, 1 - f 1.
-    const InstructionCounts lobe = kGgx + InstructionCounts{10.0, 1.0};
+    const InstructionCounts lobe = ggx + InstructionCounts{10.0, 1.0};
     // Diffuse weight 1; specular weight 2, or 2 a channel where reflectance varies; 2 more where it
     // does so at grazing angles.
     const bool varies = kernels.metallic || kernels.specular;
@@ -45,7 +47,7 @@ InstructionCounts pbr_instructions(const KernelFeatures& kernels) {
         2.0 * kAddScaled + InstructionCounts{(varies ? 7.0 : 3.0) + (kernels.specular ? 2.0 : 0.0)};
     InstructionCounts work = kHalfVector + lobe + sums;
     // n.l 3 + 1 + 1, falloff 1; the lobe without Schlick's 10 but with its own weight.
-    if (kernels.clearcoat) work = work + InstructionCounts{6.0} + kGgx + kAddScaled;
+    if (kernels.clearcoat) work = work + InstructionCounts{6.0} + ggx + kAddScaled;
     if (kernels.sheen) work = work + sheen_instructions() + kAddScaled;
     return work;
 }

@@ -2,7 +2,7 @@
 #include "host/stages/surfaces/bin_triangles.h"
 
 #include <algorithm>
-#include "kernels/shared/raster_row.h"
+#include "kernels/shared/surface_scene.h"
 
 namespace kilolux {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/surfaces/raster_triangles.h"
 
-#include "kernels/shared/raster_row.h"
+#include "kernels/shared/surface_scene.h"
 
 namespace kilolux {
 namespace {

@@ -2,6 +2,7 @@
 // Compiles evaluate.h with counting lanes into namespace COUNTED, with the switches that are
 // defined. Included once for every set of switches, so there is no include guard.
 #undef KILOLUX_SHARED_EVALUATE_H
+#undef KILOLUX_SHARED_GGX_H
 #undef KILOLUX_SHARED_LIGHT_H
 #undef KILOLUX_SHARED_LIGHT_SUM_H
 #undef KILOLUX_SHARED_POWER_H
@@ -29,6 +30,8 @@ inline ShadingPoint some_point() {
     surface.normal = normal;
     surface.roughness = surface.coat_roughness = surface.sheen_roughness = fv(0.5f);
     surface.coat_normal = normal;
+    surface.tangent = {fv(1.0f), fv(0.0f), fv(0.0f)};
+    surface.anisotropy = fv(0.5f);
     return make_shading_point(surface, false);
 }
 

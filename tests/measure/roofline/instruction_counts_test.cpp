@@ -63,6 +63,10 @@
 #define HAS_SHEEN 1
 #define COUNTED pbr_every_lobe_spots
 #include "tests/measure/roofline/counted_evaluate.h"
+#undef HAS_ANISOTROPY
+#define HAS_ANISOTROPY 1
+#define COUNTED pbr_every_stretched_lobe_spots
+#include "tests/measure/roofline/counted_evaluate.h"
 
 namespace {
 
@@ -77,6 +81,7 @@ struct Case {
     struct {
         int shading;
         bool metallic = false, specular = false, spots = false, clearcoat = false, sheen = false;
+        bool anisotropy = false;
     } of;
 
     kilolux::KernelFeatures features() const {
@@ -86,6 +91,7 @@ struct Case {
         features.specular = of.specular;
         features.clearcoat = of.clearcoat;
         features.sheen = of.sheen;
+        features.anisotropy = of.anisotropy;
         features.spot_lights = of.spots;
         return features;
     }
@@ -110,6 +116,8 @@ const Case kCases[] = {
          .clearcoat = true),
     CASE(pbr_every_lobe_spots, .shading = SHADING_PBR, .specular = true, .spots = true,
          .clearcoat = true, .sheen = true),
+    CASE(pbr_every_stretched_lobe_spots, .shading = SHADING_PBR, .specular = true, .spots = true,
+         .clearcoat = true, .sheen = true, .anisotropy = true),
     CASE(pbr_metallic_specular, .shading = SHADING_PBR, .metallic = true, .specular = true),
 };
 #undef CASE

@@ -37,6 +37,10 @@ kernel void probe(global const float* in, uint count, global const ShadeLight* l
     s.sheen = fv3(VALUE(24), VALUE(25), VALUE(26));
     s.sheen_roughness = VALUE(27);
 #endif
+#if HAS_ANISOTROPY
+    s.tangent = fv3(VALUE(28), VALUE(29), VALUE(30));
+    s.anisotropy = VALUE(31);
+#endif
     ShadingPoint p = make_shading_point(s, orthographic != 0);
     LightSum sum = zero_sum();
     for (uint k = 0; k < directional_count; ++k) sum = evaluate_directional(sum, p, directional[k]);
@@ -69,7 +73,8 @@ std::vector<float> rows_of(const SurfaceD& s) {
                              s.roughness,      s.metallic,      s.occlusion,     s.specular.x,
                              s.specular.y,     s.specular.z,    s.specular_f90,  s.coat,
                              s.coat_roughness, s.coat_normal.x, s.coat_normal.y, s.coat_normal.z,
-                             s.sheen.x,        s.sheen.y,       s.sheen.z,       s.sheen_roughness};
+                             s.sheen.x,        s.sheen.y,       s.sheen.z,       s.sheen_roughness,
+                             s.tangent.x,      s.tangent.y,     s.tangent.z,     s.anisotropy};
     std::vector<float> rows;
     for (const double value : values) rows.push_back(static_cast<float>(value));
     return rows;
@@ -89,7 +94,9 @@ SurfaceD surface_of(const std::vector<float>& r) {
             r[20],
             {r[21], r[22], r[23]},
             {r[24], r[25], r[26]},
-            r[27]};
+            r[27],
+            {r[28], r[29], r[30]},
+            r[31]};
 }
 
 template <typename T>
@@ -104,7 +111,7 @@ ProbeResult probe_evaluate(const std::vector<SurfaceD>& surfaces, const Lighting
     const Gpu gpu = test_gpu(lanes);
     const std::size_t count = round_up(surfaces.size(), 16);
     ProbeResult result;
-    std::vector<float> in(28 * count, 0.5f);
+    std::vector<float> in(32 * count, 0.5f);
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
         const std::vector<float> rows = rows_of(surfaces[i]);
         for (std::size_t row = 0; row < rows.size(); ++row) in[row * count + i] = rows[row];
@@ -116,6 +123,7 @@ ProbeResult probe_evaluate(const std::vector<SurfaceD>& surfaces, const Lighting
                                      .define("HAS_SPECULAR", 1)
                                      .define("HAS_CLEARCOAT", lighting.clearcoat ? 1 : 0)
                                      .define("HAS_SHEEN", lighting.sheen ? 1 : 0)
+                                     .define("HAS_ANISOTROPY", lighting.anisotropy ? 1 : 0)
                                      .define("HAS_SPOT_LIGHTS", 1);
     const auto found =
         run_probe<float>(gpu, {kEvaluateHeaders, kEvaluateProbe, options}, count / lanes_of(gpu),

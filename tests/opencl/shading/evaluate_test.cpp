@@ -84,6 +84,18 @@ SurfaceD sheen_surface(Random& random) {
     return s;
 }
 
+glm::dvec3 tangent_of(const SurfaceD& s, Random& random) {
+    return glm::normalize(cross(s.normal, random.direction()));
+}
+
+// With stretched highlights, half of them under a coat.
+SurfaceD stretched_surface(Random& random) {
+    SurfaceD s = random.below(2) == 0 ? random_surface(random, 0.3) : coated_surface(random, 0.3);
+    s.tangent = tangent_of(s, random);
+    s.anisotropy = random.below(5) * 0.25;
+    return s;
+}
+
 TEST(Evaluate, AgreesWithDoubleForPointSpotAndDirectionalLights) {
     Random random(21);
     std::vector<ShadeLight> lights;
@@ -101,6 +113,7 @@ TEST(Evaluate, AgreesWithDoubleForPointSpotAndDirectionalLights) {
     for (int i = 0; i < 3000; ++i) surfaces.push_back(random_surface(random, 0.3));
     for (int i = 0; i < 3000; ++i) surfaces.push_back(coated_surface(random, 0.3));
     for (int i = 0; i < 3000; ++i) surfaces.push_back(sheen_surface(random));
+    for (int i = 0; i < 3000; ++i) surfaces.push_back(stretched_surface(random));
     for (const int shading : kShadings) {
         for (const bool orthographic : {false, true}) {
             const Lighting all{lights, sun, 0.1, orthographic, shading};
@@ -267,6 +280,65 @@ TEST(Evaluate, PeaksOfCoatsKeepTheirShape) {
             s.roughness = 1;
         }
         expect_lobe(surfaces, SHADING_PBR, 5e-5);
+    }
+}
+
+// The same sweep across highlights that are stretched along y.
+TEST(Evaluate, StretchedPeaksKeepTheirShape) {
+    for (const double roughness : {0.0, 0.045, 0.1, 0.3, 1.0}) {
+        for (const double strength : {0.01, 0.3, 1.0}) {
+            std::vector<SurfaceD> surfaces = lobe_sweep(roughness);
+            for (SurfaceD& s : surfaces) {
+                s.tangent = {0, 1, 0};
+                s.anisotropy = strength;
+            }
+            expect_lobe(surfaces, SHADING_PBR, 5e-5);
+            // And along it.
+            for (SurfaceD& s : surfaces) s.tangent = cross(s.normal, s.tangent);
+            expect_lobe(surfaces, SHADING_PBR, 5e-5);
+        }
+    }
+}
+
+TEST(Evaluate, StretchedHighlightsSeenAtGrazingAnglesStayAccurate) {
+    Random random(30);
+    std::vector<SurfaceD> surfaces;
+    for (const double cosine : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 0.0}) {
+        for (int i = 0; i < 64; ++i) {
+            SurfaceD s;
+            s.position = {0, 0, -3};
+            s.normal = {std::sqrt(1 - cosine * cosine), 0, cosine};
+            s.roughness = 0.4;
+            s.metallic = 1;
+            s.tangent = tangent_of(s, random);
+            s.anisotropy = random.below(5) * 0.25;
+            surfaces.push_back(s);
+        }
+    }
+    const std::vector<ShadeLight> lights = {light_at({2, 0.5, -4}, 50, {1, 2, 3})};
+    EXPECT_LE(worst_error(surfaces, {lights, {}, 0.1, false, SHADING_PBR}), kEvaluateTolerance);
+}
+
+// A strength of 0 changes no bit, also of a mirror.
+TEST(Evaluate, AnisotropyOfNoStrengthChangesNoBit) {
+    Random random(31);
+    std::vector<SurfaceD> surfaces;
+    for (int i = 0; i < 500; ++i) {
+        surfaces.push_back(coated_surface(random, 0.3));
+        surfaces.back().roughness = i % 3 * 0.2;
+        surfaces.back().tangent = tangent_of(surfaces.back(), random);
+    }
+    const std::vector<ShadeLight> lights = {light_at({0.1, 0.2, 0.3}, 90, {1, 2, 3}),
+                                            light_at({3, 2, -5}, 90, {1, 2, 3})};
+    Lighting lighting{lights, {}, 0.1, false, SHADING_PBR};
+    for (const int lanes : {1, 8}) {
+        lighting.anisotropy = true;
+        const ProbeResult with = probe_evaluate(surfaces, lighting, lanes);
+        lighting.anisotropy = false;
+        const ProbeResult without = probe_evaluate(surfaces, lighting, lanes);
+        for (std::size_t i = 0; i < surfaces.size(); ++i) {
+            ASSERT_EQ(with.radiance[i], without.radiance[i]) << i;
+        }
     }
 }
 

@@ -73,7 +73,7 @@ KernelFeatures full_features(int shading) {
     KernelFeatures features;
     features.shading = shading;
     features.material = features.metallic = features.occlusion = features.specular = true;
-    features.clearcoat = features.sheen = true;
+    features.clearcoat = features.sheen = features.anisotropy = true;
     features.spot_lights = features.directional_lights = true;
     return features;
 }
@@ -106,6 +106,8 @@ SurfaceD surface_at(const Planes& planes, uint x, uint y) {
     s.coat_normal = planes.vector(SURFACE_COAT_NORMAL, x, y);
     s.sheen = planes.vector(SURFACE_SHEEN, x, y);
     s.sheen_roughness = planes.at(SURFACE_SHEEN_ROUGHNESS, x, y);
+    s.tangent = planes.vector(SURFACE_TANGENT, x, y);
+    s.anisotropy = planes.at(SURFACE_ANISOTROPY, x, y);
     return s;
 }
 

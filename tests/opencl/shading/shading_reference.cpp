@@ -24,6 +24,20 @@ double alpha_of(double roughness) {
     return r * r;
 }
 
+// KHR_materials_anisotropy, "Anisotropy" and "Individual lights": D V, without the clamp of V to 1
+// by which its example spares half floats.
+double stretched_brdf(const SurfaceD& s, glm::dvec3 n, glm::dvec3 v, glm::dvec3 l) {
+    const glm::dvec3 h = glm::normalize(l + v), t = glm::normalize(s.tangent), b = cross(n, t);
+    const double ab = alpha_of(s.roughness);
+    const double at = std::lerp(ab, 1.0, s.anisotropy * s.anisotropy);
+    const double nl = std::max(dot(n, l), 0.0), nv = std::max(dot(n, v), kSmallestNdotV);
+    const glm::dvec3 f(ab * dot(t, h), at * dot(b, h), at * ab * dot(n, h));
+    const double w2 = at * ab / dot(f, f);
+    const double over = nl * glm::length(glm::dvec3(at * dot(t, v), ab * dot(b, v), nv)) +
+                        nv * glm::length(glm::dvec3(at * dot(t, l), ab * dot(b, l), nl));
+    return at * ab * w2 * w2 / std::numbers::pi * 0.5 / over;
+}
+
 // glTF 2.0 appendix B, metallic-roughness, without the cosine to the light.
 glm::dvec3 gltf_brdf(const SurfaceD& s, glm::dvec3 n, glm::dvec3 v, glm::dvec3 l) {
     const double a2 = alpha_of(s.roughness) * alpha_of(s.roughness);
@@ -35,6 +49,7 @@ glm::dvec3 gltf_brdf(const SurfaceD& s, glm::dvec3 n, glm::dvec3 v, glm::dvec3 l
     const double distribution = a2 / (std::numbers::pi * t * t);
     const double visibility =
         0.5 / (nl * std::sqrt(nv * nv * (1 - a2) + a2) + nv * std::sqrt(nl * nl * (1 - a2) + a2));
+    const double lobe = s.anisotropy > 0 ? stretched_brdf(s, n, v, l) : distribution * visibility;
     const double schlick = std::pow(std::max(1 - dot(v, h), 0.0), 5);
     // KHR_materials_specular: diffuse light loses the strongest channel of the dielectric's Fresnel
     // term; that share of what is lost head on is the metal's as well.
@@ -46,7 +61,7 @@ glm::dvec3 gltf_brdf(const SurfaceD& s, glm::dvec3 n, glm::dvec3 v, glm::dvec3 l
         const double f0 = specular + (albedo - specular) * s.metallic;
         const double f = f0 + (f90 - f0) * schlick;
         const double kept = (1 - (most + (albedo - most) * s.metallic)) * to_diffuse;
-        return kept * albedo * (1 - s.metallic) / std::numbers::pi + f * distribution * visibility;
+        return kept * albedo * (1 - s.metallic) / std::numbers::pi + f * lobe;
     };
     return {channel(s.albedo.x, s.specular.x), channel(s.albedo.y, s.specular.y),
             channel(s.albedo.z, s.specular.z)};

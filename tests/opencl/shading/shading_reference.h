@@ -21,6 +21,8 @@ struct SurfaceD {
     glm::dvec3 coat_normal{0.0, 0.0, 1.0};  // any length
     glm::dvec3 sheen{0.0, 0.0, 0.0};        // KHR_materials_sheen
     double sheen_roughness = 1;
+    glm::dvec3 tangent{1.0, 0.0, 0.0};  // KHR_materials_anisotropy: perpendicular to the normal
+    double anisotropy = 0;
 };
 
 /// The lights and the view of a surface.
@@ -32,6 +34,7 @@ struct Lighting {
     int shading = 0;        // SHADING_*
     bool clearcoat = true;  // compiled in
     bool sheen = true;
+    bool anisotropy = true;
 };
 
 struct ReferenceRadiance {

@@ -127,7 +127,7 @@ class QuadScene {
 SurfaceFeatures quad_features(int anisotropy) {
     SurfaceFeatures surfaces;
     surfaces.texture_uses = 1u << USE_BASE_COLOR | 1u << USE_NORMAL;
-    surfaces.texcoord0 = true;
+    surfaces.texcoord0 = surfaces.tangents = true;
     surfaces.anisotropy = anisotropy;
     return surfaces;
 }

@@ -120,6 +120,19 @@ Scene sheen_scene() {
     return scene;
 }
 
+Scene stretched_scene() {
+    Scene scene = mapped_scene();
+    for (Material& m : scene.materials) {
+        m.anisotropy_texture = add_noise(scene, 64, trilinear(Wrap::repeat), 13);
+        // As normals: a direction of nearly zero length would change by rounding.
+        std::vector<std::uint8_t>& texels = scene.images.back().rgba;
+        for (std::size_t i = 0; i < texels.size(); i += 4) texels[i] |= 0xc0;
+        m.anisotropy_strength = 0.9f;
+        m.anisotropy_rotation = 0.7f;
+    }
+    return scene;
+}
+
 Scene mapped_scene_with_other_filters() {
     Scene scene = mapped_scene();
     for (std::size_t i = 0; i < scene.textures.size(); ++i) {

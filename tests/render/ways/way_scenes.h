@@ -17,6 +17,9 @@ Scene coated_scene();
 /// The same with sheen of two maps, without coats.
 Scene sheen_scene();
 
+/// The same with stretched highlights of a map.
+Scene stretched_scene();
+
 /// mapped_scene() with nearest texels and levels, and textures without mipmaps.
 Scene mapped_scene_with_other_filters();
 

@@ -161,6 +161,10 @@ TEST(Ways, MakeTheSameSurfacesWithSheen) {
     expect_one_surface(sheen_scene(), hill_camera(), way_settings());
 }
 
+TEST(Ways, MakeTheSameSurfacesWithAnisotropy) {
+    expect_one_surface(stretched_scene(), hill_camera(), way_settings());
+}
+
 // Nearest texels and levels, no mipmaps, and several samples a pixel.
 TEST(Ways, MakeTheSameSurfacesWithOtherFilters) {
     RenderSettings settings = way_settings();

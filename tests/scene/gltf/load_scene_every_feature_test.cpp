@@ -79,7 +79,7 @@ TEST_F(LoadSceneEveryFeature, MaterialsHaveAllSlotsAndFactors) {
           &all.occlusion_texture, &all.emissive_texture, &all.specular_texture,
           &all.specular_color_texture, &all.clearcoat_texture, &all.clearcoat_roughness_texture,
           &all.clearcoat_normal_texture, &all.sheen_color_texture, &all.sheen_roughness_texture,
-          &all.transmission_texture, &all.thickness_texture}) {
+          &all.anisotropy_texture, &all.transmission_texture, &all.thickness_texture}) {
         EXPECT_TRUE(use->present());
     }
     EXPECT_EQ(all.base_color, glm::vec4(0.5f, 0.25f, 1.0f, 0.75f));
@@ -103,6 +103,8 @@ TEST_F(LoadSceneEveryFeature, MaterialsHaveAllSlotsAndFactors) {
     EXPECT_EQ(all.sheen_color, glm::vec3(0.5f, 0.25f, 1.0f));
     EXPECT_EQ(all.sheen_roughness, 0.375f);
     EXPECT_EQ(all.sheen_color_texture.uv_set, 1);
+    EXPECT_EQ(all.anisotropy_strength, 0.75f);
+    EXPECT_EQ(all.anisotropy_rotation, -4.5f);
     EXPECT_EQ(all.thickness, 0.25f);
     EXPECT_EQ(all.thickness_texture.uv_set, 1);
     EXPECT_EQ(all.attenuation_distance, 0.5f);

@@ -137,6 +137,22 @@ TEST(LoadSceneFeatures, ANormalMapOfACoatHasTangents) {
     EXPECT_TRUE(load(file).meshes.at(0).tangents.empty());
 }
 
+// Also without a map, by the first texture coordinates.
+TEST(LoadSceneFeatures, AnisotropyHasTangents) {
+    GltfBuilder file = quad_with_normal_map();
+    json& material = file.root["materials"][0];
+    const json map = material["normalTexture"];
+    const std::vector<glm::vec4> usual = load(file).meshes.at(0).tangents;
+    material.erase("normalTexture");
+    json& anisotropy = material["extensions"]["KHR_materials_anisotropy"];
+    anisotropy = {{"anisotropyRotation", 1.0}, {"anisotropyStrength", 0.5}};
+    EXPECT_EQ(load(file).meshes.at(0).tangents, usual);
+    anisotropy["anisotropyStrength"] = 0.0;
+    EXPECT_TRUE(load(file).meshes.at(0).tangents.empty());
+    anisotropy["anisotropyTexture"] = map;
+    EXPECT_EQ(load(file).meshes.at(0).tangents, usual);
+}
+
 // The output of gltfpack: all attributes in small integers, scaled by the texture's transform.
 TEST(LoadSceneFeatures, QuantizedAttributesOfAllKinds) {
     GltfBuilder file = quad_with_normal_map();

@@ -261,5 +261,22 @@ TEST(LoadScenePointers, ACameraThatBecomesInvalidIsRefusedThen) {
                          "cameras[0].perspective.yfov: is -1, must be between 0 and pi"));
 }
 
+// Meshes have tangents at all times where a strength is above 0 at some time.
+TEST(LoadScenePointers, AnisotropyThatComesHasTangentsBefore) {
+    GltfBuilder file = still_file();
+    json& material = file.root["materials"][0];
+    material.erase("normalTexture");
+    material["extensions"].erase("KHR_materials_clearcoat");
+    material["extensions"]["KHR_materials_anisotropy"] = {{"anisotropyStrength", 0.0}};
+    EXPECT_TRUE(loaded(file).meshes.at(0).tangents.empty());
+    animate(file, "/materials/0/extensions/KHR_materials_anisotropy/anisotropyStrength", "SCALAR",
+            {{0.0f, 1.0f}});
+    for (const double time : {0.0, 1.0}) {
+        const Scene scene = loaded(file, {time});
+        EXPECT_EQ(scene.materials[0].anisotropy_strength, static_cast<float>(time));
+        EXPECT_FALSE(scene.meshes.at(0).tangents.empty()) << time;
+    }
+}
+
 }  // namespace
 }  // namespace kilolux

@@ -73,6 +73,15 @@ Material convert_material(const json& source, FileTextures& textures) {
     return out;
 }
 
+bool stretches(const GltfDocument& document, const Material& material, std::size_t index) {
+    const auto drives = [&](const AnimatedProperty& property) {
+        return property.array == "materials" && property.element == index &&
+               property.path.ends_with("anisotropyStrength");
+    };
+    return !material.unlit &&
+           (material.anisotropy_strength > 0.0f || std::ranges::any_of(document.animated, drives));
+}
+
 // Renames the TEXCOORD_n that a material uses to 0 and 1 and returns their numbers. Textures of
 // further sets are left out.
 std::array<int, 2> pack_texcoord_sets(const GltfDocument& document, Material& material) {
@@ -152,6 +161,8 @@ GltfMaterials convert_materials(const GltfDocument& document) {
     out.images = textures.images();
     add_roughness_textures(document, out);
     for (Material& material : out.materials) {
+        const std::size_t index = out.texcoord_sets.size();
+        if (stretches(document, material, index)) out.stretched.insert(index);
         out.texcoord_sets.push_back(pack_texcoord_sets(document, material));
         note_glass(document, material);
     }
@@ -167,7 +178,8 @@ MeshShading shading_of(const GltfMaterials& materials, const tinygltf::Primitive
     if (shading.material == kDefaultMaterial) return shading;
     const auto index = static_cast<std::size_t>(shading.material);
     shading.texcoord_sets = materials.texcoord_sets[index];
-    shading.needs_tangents = needs_tangents(materials.materials[index]);
+    shading.needs_tangents =
+        needs_tangents(materials.materials[index]) || materials.stretched.contains(index);
     shading.tangent_map = tangent_map(materials.materials[index]);
     return shading;
 }
@@ -185,13 +197,15 @@ void add_line_materials(const GltfDocument& document, GltfMaterials& materials) 
             const LineMaterial key = line_material_of(primitive);
             const auto index = static_cast<std::size_t>(std::max(primitive.material, 0));
             const bool is_default = primitive.material == kDefaultMaterial;
-            const bool bumpy = !is_default && needs_tangents(materials.materials[index]);
+            const bool bumpy = !is_default && (needs_tangents(materials.materials[index]) ||
+                                               materials.stretched.contains(index));
             const bool as_it_is = key.normals && (key.tangents || !bumpy);
             if (as_it_is || materials.of_lines.contains(key)) continue;
             Material made = is_default ? Material{} : materials.materials[index];
             for (const MaterialMap& map : kMaterialMaps) {
                 if ((TANGENT_USES & (1u << map.use)) != 0) made.*map.member = {};
             }
+            made.anisotropy_strength = 0.0f;
             if (!key.normals) make_unlit(document, made, key.colors);
             materials.of_lines[key] = static_cast<int>(materials.materials.size());
             materials.materials.push_back(std::move(made));

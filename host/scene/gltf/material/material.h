@@ -31,6 +31,7 @@ struct GltfMaterials {
     std::vector<int> images;                        // indices into the file's images
     std::vector<RoughnessImage> roughness;          // of specular-glossiness materials
     std::map<LineMaterial, int> of_lines;           // materials made for points and lines
+    std::set<std::size_t> stretched;                // of the file's: anisotropic at some time
 };
 
 /// Converts all materials. Factors are clamped to the ranges that the specification gives them.
@@ -47,7 +48,7 @@ LineMaterial line_material_of(const tinygltf::Primitive& primitive);
 
 /// Adds the materials that the file's points and lines need beside its own (glTF 2.0,
 /// section 3.9.7): unlit without normals, their colour being base colour and emission together;
-/// without the normal map where there are no tangents.
+/// without normal maps and anisotropy where there are no tangents.
 void add_line_materials(const GltfDocument& document, GltfMaterials& materials);
 
 }  // namespace kilolux
