@@ -141,7 +141,8 @@ TEST(AnimatedScene, VerticesShareATangentAtAllTimesOrAtNone) {
     }
 }
 
-TEST(AnimatedScene, ASkinCarriesTheTangentsOfTheRestPose) {
+// The quads, carried by one joint.
+Mesh skinned_quads(const glm::vec3& scale) {
     GltfBuilder file = two_quads_with_normal_map(0, 0);
     json& primitive = file.primitive();
     primitive.erase("targets");
@@ -152,11 +153,24 @@ TEST(AnimatedScene, ASkinCarriesTheTangentsOfTheRestPose) {
     for (std::size_t v = 0; v < 8; ++v) weights[4 * v] = 1.0f;
     primitive["attributes"]["WEIGHTS_0"] = file.add_floats("VEC4", weights);
     file.root["nodes"][0]["skin"] = 0;
-    const int joint = file.add_node({{"scale", {1, 4, 1}}});
+    const int joint = file.add_node({{"scale", {scale.x, scale.y, scale.z}}});
     file.add("skins", {{"joints", {joint}}});
+    return load(file).meshes.at(0);
+}
+
+TEST(AnimatedScene, ASkinCarriesTheTangentsOfTheRestPose) {
     const glm::vec3 rest(kMeanX, -std::sqrt(1.0f - kMeanX * kMeanX), 0.0f);
-    expect_near(glm::vec3(load(file).meshes.at(0).tangents.at(0)),
-                glm::normalize(rest * glm::vec3(1, 4, 1)));
+    const Mesh mesh = skinned_quads({1, 4, 1});
+    expect_near(glm::vec3(mesh.tangents.at(0)), glm::normalize(rest * glm::vec3(1, 4, 1)));
+}
+
+TEST(AnimatedScene, ASkinThatMirrorsKeepsTheImagesUp) {
+    for (const float side : {1.0f, -1.0f}) {
+        const Mesh mesh = skinned_quads({side, 1, 1});
+        const glm::vec4 tangent = mesh.tangents.at(1);
+        expect_near(glm::vec3(tangent), {side, 0, 0});
+        expect_near(glm::cross(mesh.normals.at(1), glm::vec3(tangent)) * tangent.w, {0, 1, 0});
+    }
 }
 
 TEST(AnimatedScene, RevisionsSayWhatChanged) {

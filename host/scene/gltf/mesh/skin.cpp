@@ -105,7 +105,9 @@ void skin_mesh(Mesh& mesh, const PrimitiveArrays& arrays, std::span<const std::u
         }
         if (!mesh.tangents.empty()) {
             const glm::dvec3 tangent = linear * glm::dvec3(glm::vec3(mesh.tangents[v]));
-            mesh.tangents[v] = glm::vec4(unit_or_zero(tangent), mesh.tangents[v].w);
+            // Normals of mirrored parts stay outwards, so their cross product turns round.
+            const float turn = glm::determinant(linear) < 0.0 ? -1.0f : 1.0f;
+            mesh.tangents[v] = glm::vec4(unit_or_zero(tangent), turn * mesh.tangents[v].w);
         }
     }
 }
