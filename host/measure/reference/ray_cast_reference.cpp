@@ -33,6 +33,7 @@ SurfaceSample sample_at(const SurfaceHit& hit, const PixelRay& view_ray, const C
     for (glm::dvec3* n : {&out.normal, &out.coat_normal}) {
         *n = *n != glm::dvec3(0.0) ? view_from_world * *n : glm::dvec3(0.0, 0.0, 1.0);
     }
+    out.tangent = view_from_world * out.tangent;
     return out;
 }
 
@@ -88,7 +89,6 @@ std::vector<SurfaceSamples> RayCaster::cast_layers(const Camera& camera, int wid
             if (i == out.size()) out.push_back(make_surface_samples(width, height));
             out[i].at(x, y) = sample;
         }
-        sample.tangent = view_from_world * sample.tangent;
     };
     const auto cast_row = [&](int y) {
         for (int x = 0; x < width; ++x) cast_pixel(x, y);
