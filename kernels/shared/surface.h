@@ -105,6 +105,17 @@ SHARED_PLAIN_STRUCT(ShadingPoint) {
 #endif
 };
 
+#if HAS_TRANSMISSION
+// The share of the base colour's light that goes through the surface and is not scattered.
+SHARED_FN FV transmitting_share(Surface s) {
+#if SHADING != SHADING_LAMBERT && HAS_METALLIC
+    return s.transmission * (fv(1.0f) - s.metallic);
+#else
+    return s.transmission;
+#endif
+}
+#endif
+
 // Reflectance head on of a surface whose dielectric part has `dielectric`.
 SHARED_FN FV3 mixed_f0(Surface s, FV3 dielectric) {
 #if HAS_METALLIC

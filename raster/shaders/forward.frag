@@ -4,8 +4,8 @@
 // cluster. SHADING, HAS_SPOT_LIGHTS, HAS_METALLIC, HAS_SPECULAR, HAS_CLEARCOAT, HAS_SHEEN,
 // HAS_ANISOTROPY, HAS_TRANSMISSION, HAS_UNLIT, HAS_LIGHT_PROFILES as in evaluate.h;
 // HAS_DIRECTIONAL_LIGHTS. BLENDED: the material lets light through.
-#include "kernels/shared/evaluate.h"
 #include "raster/shaders/surface.glsl"
+#include "kernels/shared/share_behind.h"
 
 layout(std140, binding = FORWARD_BLOCK) uniform ForwardBlock { ForwardRow frame; };
 layout(std430, binding = 0) readonly buffer DirectionalLights {
