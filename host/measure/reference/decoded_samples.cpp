@@ -67,8 +67,11 @@ ReferencePicture picture_reference(Renderer& renderer, const Camera& camera,
     const LitSurfaces lit = renderer.lit_surfaces();
     if (!has_blended_surfaces(renderer.scene())) return shade_reference(lit, options);
     const RenderSettings& settings = renderer.settings();
+    const auto may_end = [&](double) {
+        if (options.progress) options.progress(0.0);
+    };
     return shade_reference(
-        RayCaster(renderer.scene()).cast_layers(camera, settings.width, settings.height),
+        RayCaster(renderer.scene()).cast_layers(camera, settings.width, settings.height, may_end),
         reference_lights(lit.lights, lit.directional, lit.webs), options);
 }
 

@@ -100,9 +100,19 @@ glm::dvec3 value_at(const RgbImage& image, std::size_t i) {
 
 ReferencePicture shade_reference(const std::vector<SurfaceSamples>& layers,
                                  const ReferenceLights& lights, const ReferenceOptions& options) {
-    ReferencePicture out = shade_reference(layers.front(), lights, options);
+    const auto shade = [&](std::size_t k) {
+        ReferenceOptions part = options;
+        if (options.progress) {
+            part.progress = [&, k](double share) {
+                options.progress((static_cast<double>(k) + share) /
+                                 static_cast<double>(layers.size()));
+            };
+        }
+        return shade_reference(layers[k], lights, part);
+    };
+    ReferencePicture out = shade(0);
     for (std::size_t k = 1; k < layers.size(); ++k) {
-        const ReferencePicture over = shade_reference(layers[k], lights, options);
+        const ReferencePicture over = shade(k);
         for (std::size_t i = 0; i < layers[k].pixels.size(); ++i) {
             const SurfaceSample& surface = layers[k].pixels[i];
             if (surface.kind == SurfaceKind::background) continue;

@@ -155,7 +155,9 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
     const auto height = static_cast<Bytes>(settings.height);
     const Bytes tile_rows =
         is_forward(settings.renderer) ? height : std::min<Bytes>(height, kRasterRows);
-    const bool blends = has_blended_surfaces(scene) && !is_forward(settings.renderer);
+    const bool reads_layers = settings.want.layers() || settings.want.probes;
+    const bool blends =
+        has_blended_surfaces(scene) && (!is_forward(settings.renderer) || reads_layers);
     const bool ids = resolves_ids(settings.geometry) && !is_forward(settings.renderer);
     Need need;
     const Bytes on_device = scene_device_bytes(scene, settings, plan, ids, blends);
