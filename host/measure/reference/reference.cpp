@@ -100,7 +100,7 @@ glm::dvec3 value_at(const RgbImage& image, std::size_t i) {
 
 ReferencePicture shade_reference(const std::vector<SurfaceSamples>& layers,
                                  const ReferenceLights& lights, const ReferenceOptions& options) {
-    const auto shade = [&](std::size_t k) {
+    const auto picture_of = [&](std::size_t k) {
         ReferenceOptions part = options;
         if (options.progress) {
             part.progress = [&, k](double share) {
@@ -110,9 +110,9 @@ ReferencePicture shade_reference(const std::vector<SurfaceSamples>& layers,
         }
         return shade_reference(layers[k], lights, part);
     };
-    ReferencePicture out = shade(0);
+    ReferencePicture out = picture_of(0);
     for (std::size_t k = 1; k < layers.size(); ++k) {
-        const ReferencePicture over = shade(k);
+        const ReferencePicture over = picture_of(k);
         for (std::size_t i = 0; i < layers[k].pixels.size(); ++i) {
             const SurfaceSample& surface = layers[k].pixels[i];
             if (surface.kind == SurfaceKind::background) continue;
