@@ -122,12 +122,16 @@ SHARED_FN LightSum add_sheen(LightSum sum, ShadingPoint p, HalfVector half_way, 
 SHARED_FN LightSum add_lobes(LightSum sum, ShadingPoint p, FV3 v, FV inv_length, FV n_dot_l,
                              FV weight, FV lit, float4 color) {
     HalfVector half_way = half_vector(p.to_eye, v, inv_length);
+    // Where no lane has the lobe, it would add nothing: lobes cost what surfaces have of them.
 #if HAS_COAT
-    sum = add_coat(sum, p, half_way, v, inv_length, weight, color);
+    if (lane_any(p.coat_share > fv(0.0f)))
+        sum = add_coat(sum, p, half_way, v, inv_length, weight, color);
 #endif
 #if HAS_SHEEN_LOBE
-    sum = add_sheen(sum, p, half_way, n_dot_l, weight, color);
-    lit = lit * below_sheen(p, n_dot_l);
+    if (lane_any(p.sheen_most > fv(0.0f))) {
+        sum = add_sheen(sum, p, half_way, n_dot_l, weight, color);
+        lit = lit * below_sheen(p, n_dot_l);
+    }
 #endif
     return add_pbr(sum, p, half_way, n_dot_l, lit, color);
 }

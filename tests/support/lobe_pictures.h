@@ -89,7 +89,7 @@ inline void expect_lists_and_all_lights_same(const Scene& scene) {
 /// `with` needs the feature, but nothing of it is left; `without` does not need it.
 inline void expect_same_without(const Scene& with, const Scene& without,
                                 bool SceneFeatures::*feature) {
-    for (const uint layout : {GBUFFER_PACKED, GBUFFER_FULL}) {
+    for (const uint layout : {uint{GBUFFER_PACKED}, uint{GBUFFER_FULL}}) {
         Renderer a(with, lobe_settings(layout)), b(without, lobe_settings(layout));
         EXPECT_TRUE(a.plan().kernels.*feature);
         EXPECT_FALSE(b.plan().kernels.*feature);

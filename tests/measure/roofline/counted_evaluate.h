@@ -23,13 +23,16 @@ using namespace counting;
 #pragma GCC diagnostic pop
 namespace COUNTED {
 
-inline ShadingPoint some_point() {
+// `cover`: of its coat and sheen.
+inline ShadingPoint some_point(float cover = 0.5f) {
     const FV3 normal = {fv(0.0f), fv(0.0f), fv(1.0f)};
     Surface surface{};
     surface.position = {fv(0.1f), fv(0.2f), fv(-3.0f)};
     surface.normal = normal;
     surface.roughness = surface.coat_roughness = surface.sheen_roughness = fv(0.5f);
     surface.coat_normal = normal;
+    surface.coat = fv(cover);
+    surface.sheen = {fv(cover), fv(cover), fv(cover)};
     surface.tangent = {fv(1.0f), fv(0.0f), fv(0.0f)};
     surface.anisotropy = fv(0.5f);
     return make_shading_point(surface, false);
@@ -44,8 +47,7 @@ inline LightSum some_sum() {
 }
 
 // One light that is `distance` in front of the surface, of range 1.
-inline kilolux::InstructionCounts count_evaluation(float distance) {
-    const ShadingPoint point = some_point();
+inline kilolux::InstructionCounts count_evaluation_of(const ShadingPoint& point, float distance) {
     ShadeLight light{};
     light.position_inv_range2 = varying4(0.1f, 0.2f, -3.0f + distance, 1.0f);
     light.color_scale = varying4(1.0f, 1.0f, 1.0f, 1.0f);
@@ -54,6 +56,10 @@ inline kilolux::InstructionCounts count_evaluation(float distance) {
     counts = {};
     evaluate(sum, point, light);
     return counts.instructions;
+}
+
+inline kilolux::InstructionCounts count_evaluation(float distance) {
+    return count_evaluation_of(some_point(), distance);
 }
 
 inline kilolux::InstructionCounts count_directional() {

@@ -129,6 +129,15 @@ void expect_equal(const InstructionCounts& counted, const InstructionCounts& mod
     EXPECT_EQ(counted.divisions, model.divisions);
 }
 
+TEST(InstructionCountsTest, LobesTakeNoneWhereASurfaceHasNothingOfThem) {
+    kilolux::KernelFeatures features;
+    features.shading = SHADING_PBR;
+    features.specular = features.spot_lights = true;
+    const auto bare = pbr_every_lobe_spots::some_point(0.0f);
+    expect_equal(pbr_every_lobe_spots::count_evaluation_of(bare, kInRange),
+                 kilolux::evaluation_instructions(features));
+}
+
 TEST(InstructionCountsTest, OfLightsInRangeAreThoseOfEvaluate) {
     for (const Case& c : kCases) {
         SCOPED_TRACE(c.name);
