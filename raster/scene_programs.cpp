@@ -9,7 +9,8 @@ constexpr GLint kDrawnInstance = 0;  // uniform of scene.glsl
 // Draws the far side of a surface that blends first.
 void draw_faces(const GpuScene& scene, std::size_t mesh) {
     const Material& material = scene.material_of_mesh(mesh);
-    if (material.double_sided && !is_blended(material)) {
+    const bool blends = is_blended(scene.scene(), scene.scene().meshes[mesh]);
+    if (material.double_sided && !blends) {
         glDisable(GL_CULL_FACE);
         scene.draw(mesh);
         return;

@@ -42,6 +42,7 @@ struct ShadowCasters {
     DeviceArray<ShadowNode> nodes;  // 0: the root
     DeviceArray<float> triangles;   // [count][3][3]
     DeviceArray<MaskedCaster> masked;
+    DeviceArray<TintCaster> tinting;  // in the second hierarchy
     DeviceArray<SurfaceMaterial> materials;
     DeviceArray<TextureRow> textures;
     DeviceArray<std::uint64_t> texels;
@@ -50,6 +51,7 @@ struct ShadowCasters {
         set("shadow_nodes", nodes);
         set("casters", triangles);
         set("masked_casters", masked);
+        set("tint_casters", tinting);
         set("materials", materials);
         set("textures", textures);
         set("texels", texels);

@@ -35,7 +35,7 @@ struct ProbedLayer {
 /// What is known of one pixel and of the lists that light it.
 struct PixelProbe {
     SurfaceValues surface{};          // the opaque one
-    std::vector<ProbedLayer> layers;  // in front of it, from near to far
+    std::vector<ProbedLayer> layers;  // blended ones in front of the opaque one, from near to far
     bool unlit = false;               // whether a roughness of 0 means an unlit surface
     ClusterGrid grid{};
     uint tile_x = 0, tile_y = 0, slice = 0;  // its coarse cluster

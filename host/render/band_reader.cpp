@@ -124,6 +124,11 @@ void BandReader::add_layers(const LastSample& last, DecodedSurfaces& out) {
             for (std::size_t from = i; from < planes.size(); from += size) {
                 out.planes[from] = planes[from];
             }
+            if (planes.empty() || out.evaluated[i] != kBackground) continue;
+            for (const auto counts : {&DecodedSurfaces::evaluated, &DecodedSurfaces::covering,
+                                      &DecodedSurfaces::facing, &DecodedSurfaces::seen}) {
+                if (!(out.*counts).empty()) (out.*counts)[i] = 0;
+            }
         }
     });
 }

@@ -26,9 +26,10 @@ ReflectionMapsView view_of(const PrefilteredEnvironment& maps) {
     return {maps.texels, maps.levels, maps.table, maps.table_size};
 }
 
-std::optional<ReflectEnvironment> make_reflections(const RenderContext& context) {
+std::optional<ReflectEnvironment> make_reflections(const RenderContext& context,
+                                                   const ScenePlan& plan) {
     if (!context.settings.reflections) return {};
-    ReflectEnvironment out(context.gpu, context.tuning, context.plan.kernels);
+    ReflectEnvironment out(context.gpu, context.tuning, plan.kernels);
     out.set_maps(view_of(*context.settings.reflections));
     return out;
 }
@@ -57,7 +58,10 @@ std::uint64_t EnvironmentLight::device_bytes(const RenderSettings& settings) {
 void EnvironmentLight::set(const RenderContext& context) {
     const RenderSettings& settings = context.settings;
     if (maps_ != settings.reflections) {
-        reflections_ = make_reflections(context);
+        reflections_ = make_reflections(context, context.plan);
+        const ScenePlan plan = context.plan.of_layers();
+        of_layers_.reset();
+        if (plan != context.plan) of_layers_ = make_reflections(context, plan);
         maps_ = settings.reflections;
     }
     const Backdrop backdrop = backdrop_of(settings);
@@ -78,6 +82,12 @@ void EnvironmentLight::enqueue(const LitBand& band, StageTimer& timer) {
     if (!band.has_surfaces()) return;  // OpenGL draws over the background
     if (reflections_) reflections_->enqueue(band.surfaces, band.light, timer);
     if (background_) background_->enqueue(band.surfaces, band.light, timer);
+}
+
+void EnvironmentLight::reflect_in_layer(const GBuffer& surfaces, const Radiance& light,
+                                        StageTimer& timer) {
+    auto& reflections = of_layers_ ? of_layers_ : reflections_;
+    if (reflections) reflections->enqueue(surfaces, light, timer);
 }
 
 }  // namespace kilolux

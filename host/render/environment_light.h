@@ -30,12 +30,16 @@ class EnvironmentLight {
     /// Adds both to lit surfaces, of the deferred renderers. Enqueues only.
     void enqueue(const LitBand& band, StageTimer& timer);
 
+    /// Adds the reflections to the surfaces of a layer. Enqueues only.
+    void reflect_in_layer(const GBuffer& surfaces, const Radiance& light, StageTimer& timer);
+
  private:
     std::shared_ptr<const Environment> image_;  // that background_ has
     Backdrop backdrop_;                         // of image_
     std::shared_ptr<const PrefilteredEnvironment> maps_;
     std::optional<FillBackground> background_;
     std::optional<ReflectEnvironment> reflections_;
+    std::optional<ReflectEnvironment> of_layers_;  // none: as the others
 };
 
 }  // namespace kilolux

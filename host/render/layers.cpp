@@ -53,7 +53,7 @@ void Layers::draw(const Sample& sample, BlendedLayers& layers, const LitBand& ba
                                   layer.shadows.view, out.timer);
         }
         layer.light = light(layer, out.timer);
-        environment.enqueue(layer, out.timer);
+        environment.reflect_in_layer(layer.surfaces, layer.light, out.timer);
         blend_.enqueue(next.ids, next.scene, layer.surfaces, layer.light, band.light, out.timer);
     };
     layers.each(context_.device_surfaces(),

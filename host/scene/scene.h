@@ -266,7 +266,7 @@ std::size_t material_row(const Scene& scene, const Mesh& mesh);
 /// Whether what is behind its surfaces is seen through them: alphaMode BLEND, or transmission.
 bool is_blended(const Material& material);
 
-/// Such surfaces cast no shadow, and are drawn as layers over the others.
+/// Such surfaces are drawn as layers over the others; they hide no light, but tint exact shadows.
 bool is_blended(const Scene& scene, const Mesh& mesh);
 
 /// Whether any instance has such surfaces.

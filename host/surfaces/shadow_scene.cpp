@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "host/base/error.h"
 #include "host/scene/rows/material_row.h"
@@ -21,7 +23,7 @@ float scale_of(const Instance& instance) {
     return static_cast<float>(std::copysign(std::sqrt(squares / 3.0), glm::determinant(m)));
 }
 
-// Vertex colours and texture coordinates of a triangle that is masked or tints light.
+// Vertex colours and texture coordinates of a masked triangle.
 MaskedCaster masked_caster(const Scene& scene, const Mesh& mesh, std::size_t triangle,
                            uint number) {
     const Material& material = material_of(scene, mesh);
@@ -38,11 +40,28 @@ MaskedCaster masked_caster(const Scene& scene, const Mesh& mesh, std::size_t tri
     return out;
 }
 
+TintCaster tint_caster(const Mesh& mesh, std::size_t triangle) {
+    TintCaster out{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t vertex = mesh.indices[3 * triangle + i];
+        const auto [a, b] = mesh.texcoords;
+        if (!a.empty()) std::tie(out.u0[i], out.v0[i]) = std::pair(a[vertex].x, a[vertex].y);
+        if (!b.empty()) std::tie(out.u1[i], out.v1[i]) = std::pair(b[vertex].x, b[vertex].y);
+        const glm::vec4 color = mesh.colors.empty() ? glm::vec4(1.0f) : mesh.colors[vertex];
+        out.red[i] = color.x;
+        out.green[i] = color.y;
+        out.blue[i] = color.z;
+        out.alpha[i] = color.w;
+    }
+    return out;
+}
+
 // All casters on their way to the device.
 struct Casters {
     std::vector<float> triangles;  // also those that cast no shadows, which rays end at
-    std::vector<CasterBox> boxes, tinting;
+    std::vector<CasterBox> boxes, tint_boxes;
     std::vector<MaskedCaster> masked;
+    std::vector<TintCaster> tinting;
     float extent = 0.0f;
 };
 
@@ -71,14 +90,14 @@ void add_triangle(const float* corners, uint child, bool tints, Casters& out) {
         const float* p = corners + std::size_t{3} * static_cast<std::size_t>(i);
         out.extent = std::max(out.extent, std::abs(p[0]) + std::abs(p[1]) + std::abs(p[2]));
     }
-    (tints ? out.tinting : out.boxes).push_back(box);
+    (tints ? out.tint_boxes : out.boxes).push_back(box);
 }
 
 void add_instance(const Scene& scene, const Instance& instance, const glm::dvec3& anchor,
                   Casters& out) {
     const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
     const bool tints = is_blended(scene, mesh);
-    const bool masked = tints || material_of(scene, mesh).alpha_mode == AlphaMode::mask;
+    const bool masked = material_of(scene, mesh).alpha_mode == AlphaMode::mask;
     const float scale = scale_of(instance);
     glm::dmat4 shadow_from_object = instance.world_from_object;
     shadow_from_object[3] -= glm::dvec4(anchor, 0.0);
@@ -94,10 +113,15 @@ void add_instance(const Scene& scene, const Instance& instance, const glm::dvec3
             out.triangles.insert(out.triangles.end(), {p.x, p.y, p.z});
         }
         uint child = number;
-        if (masked) {
+        if (tints) {
+            child = static_cast<uint>(out.tinting.size());
+            out.tinting.push_back(tint_caster(mesh, i));
+            out.tinting.back().triangle = number;
+            out.tinting.back().material = static_cast<uint>(material_row(scene, mesh));
+            out.tinting.back().scale = scale;
+        } else if (masked) {
             child = SHADOW_MASKED | static_cast<uint>(out.masked.size());
             out.masked.push_back(masked_caster(scene, mesh, i, number));
-            out.masked.back().scale = scale;
         }
         add_triangle(&out.triangles[std::size_t{9} * number], child, tints, out);
     }
@@ -119,7 +143,17 @@ float4 row(const glm::dvec3& axis, double offset) {
 std::uint64_t shadow_scene_bytes(const Scene& scene) {
     // A node has four children or more, so there is at most a node for three triangles.
     constexpr std::uint64_t kTriangle = 9 * sizeof(float) + sizeof(ShadowNode) / 3;
-    return triangle_count(scene) * kTriangle;
+    std::uint64_t bytes = triangle_count(scene) * kTriangle;
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        const std::uint64_t count = mesh.indices.size() / 3;
+        if (is_blended(scene, mesh)) {
+            bytes += count * sizeof(TintCaster);
+        } else if (material_of(scene, mesh).alpha_mode == AlphaMode::mask) {
+            bytes += count * sizeof(MaskedCaster);
+        }
+    }
+    return bytes;
 }
 
 ShadowScene::ShadowScene(const Gpu& gpu, const Scene& scene)
@@ -127,7 +161,8 @@ ShadowScene::ShadowScene(const Gpu& gpu, const Scene& scene)
       scene_(scene),
       nodes_(gpu, kShadowOwner),
       triangles_(gpu, kShadowOwner),
-      masked_(gpu, kShadowOwner) {
+      masked_(gpu, kShadowOwner),
+      tinting_(gpu, kShadowOwner) {
     build();
 }
 
@@ -148,15 +183,19 @@ void ShadowScene::build() {
     std::vector<ShadowNode> nodes = build_shadow_hierarchy(all.boxes);
     levels_ = level_count(nodes);
     tint_root_ = 0;
-    if (!all.tinting.empty()) {
+    if (!all.tint_boxes.empty()) {
         tint_root_ = static_cast<uint>(nodes.size());
-        const std::vector<ShadowNode> tinting = build_shadow_hierarchy(all.tinting);
+        const std::vector<ShadowNode> tinting = build_shadow_hierarchy(all.tint_boxes);
         nodes.insert(nodes.end(), tinting.begin(), tinting.end());
     }
     upload<ShadowNode>(gpu_, nodes_.reserve(nodes.size()), nodes);
     upload<float>(gpu_, triangles_.reserve(all.triangles.size()), all.triangles);
-    if (!all.masked.empty())
+    if (!all.masked.empty()) {
         upload<MaskedCaster>(gpu_, masked_.reserve(all.masked.size()), all.masked);
+    }
+    if (!all.tinting.empty()) {
+        upload<TintCaster>(gpu_, tinting_.reserve(all.tinting.size()), all.tinting);
+    }
 }
 
 ShadowCasters ShadowScene::casters() {
@@ -165,6 +204,7 @@ ShadowCasters ShadowScene::casters() {
     out.nodes = nodes_.get();
     out.triangles = triangles_.get();
     out.masked = masked_.get();
+    out.tinting = tinting_.get();
     return out;
 }
 

@@ -44,6 +44,7 @@ class ShadowScene {
     GrowingArray<ShadowNode> nodes_;
     GrowingArray<float> triangles_;
     GrowingArray<MaskedCaster> masked_;
+    GrowingArray<TintCaster> tinting_;
 };
 
 }  // namespace kilolux

@@ -67,6 +67,7 @@
 #define CASTER_ARGS                                                                       \
     global const ShadowNode *restrict shadow_nodes, global const float *restrict casters, \
         global const MaskedCaster *restrict masked_casters,                               \
+        global const TintCaster *restrict tint_casters,                                   \
         global const SurfaceMaterial *restrict materials,                                 \
         global const TextureRow *restrict textures, global const ulong *restrict texels
 

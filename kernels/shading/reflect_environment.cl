@@ -169,6 +169,9 @@ static inline FV3 reflected(ReflectionMaps maps, View view, Surface s, FV3 irrad
 #if HAS_METALLIC
     base = kept * (fv(1.0f) - s.metallic);
 #endif
+#if HAS_TRANSMISSION
+    base = base * (fv(1.0f) - s.transmission);
+#endif
     FV rise = f90 * shares.y;
     FV3 out = fv3(fma(fma(f0.x, shares.x, rise), light.x,
                       s.albedo.x * base * (fv(1.0f) - lost.x) * irradiance.x),
@@ -190,7 +193,11 @@ static inline FV3 reflected(ReflectionMaps maps, View view, Surface s, FV3 irrad
 }
 #else
 static inline FV3 reflected(ReflectionMaps maps, View view, Surface s, FV3 irradiance) {
-    return fv3(s.albedo.x * irradiance.x, s.albedo.y * irradiance.y, s.albedo.z * irradiance.z);
+    FV3 albedo = s.albedo;
+#if HAS_TRANSMISSION
+    albedo = scale3(albedo, fv(1.0f) - s.transmission);
+#endif
+    return fv3(albedo.x * irradiance.x, albedo.y * irradiance.y, albedo.z * irradiance.z);
 }
 #endif
 

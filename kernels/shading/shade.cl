@@ -18,6 +18,7 @@ typedef struct LightSource {
 #if TINTED_SHADOWS
     global const float* origins;
     ShadowScene casters;
+    global const TintCaster* tint_casters;
 #endif
 } LightSource;
 
@@ -40,7 +41,7 @@ static inline LightSum source_sum(LightSource from, GBuffer g, ItemPlace at, Lit
 #endif
 #if TINTED_SHADOWS
     ShadowPoints points;
-    set.tints.scene = tinting_scene(from.casters);
+    set.tints.scene = tinting_scene(from.casters, from.tint_casters);
     set.tints.points = &points;
     load_origins(&points, 0u, from.origins, g.view.stride * g.view.height, item.pixels);
 #endif
@@ -81,6 +82,7 @@ kernel void shade(LIT_ARGS, WORD_ARGS(const), TINT_ARGS SAMPLE_ARGS, OUTPUT_ARGS
 #if TINTED_SHADOWS
     from.origins = origins;
     from.casters = SHADOW_SCENE_OF_ARGS;
+    from.tint_casters = tint_casters;
 #endif
     shade_item(GBUFFER_OF_ARGS, from, set, SHADE_OUTPUT_OF_ARGS);
 }

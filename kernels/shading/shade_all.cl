@@ -13,6 +13,7 @@ typedef struct LightSource {
 #if SHADOWS
     global const float* origins;
     ShadowScene casters;
+    global const TintCaster* tint_casters;
 #endif
 } LightSource;
 
@@ -33,7 +34,7 @@ static inline LightSum source_sum(LightSource from, GBuffer g, ItemPlace at, Lit
     load_origins(&points, 0u, from.origins, g.view.stride * g.view.height, item.pixels);
 #endif
 #if TINTED_SHADOWS
-    set.tints.scene = tinting_scene(from.casters);
+    set.tints.scene = tinting_scene(from.casters, from.tint_casters);
     set.tints.points = &points;
 #endif
     LightSum sum = sum_directional(p, set, from.directional, from.directional_count);
@@ -48,6 +49,7 @@ kernel void shade_all(GBUFFER_ARGS, LIGHT_ARGS(const), SHADOW_ARGS, SAMPLE_ARGS,
 #if SHADOWS
     from.origins = origins;
     from.casters = SHADOW_SCENE_OF_ARGS;
+    from.tint_casters = tint_casters;
 #endif
     shade_item(GBUFFER_OF_ARGS, from, set, SHADE_OUTPUT_OF_ARGS);
 }

@@ -11,7 +11,7 @@
 
 // Which pixels see a light: SHADOWS_NONE: all; SHADOWS_BITS: those whose bit cast_shadows has set;
 // SHADOWS_RAYS: those whose rays, cast on demand, reach it. SAMPLED_SHADOWS: only for picked
-// lights. TINTED_SHADOWS: surfaces that blend or transmit take a part of the light of the others;
+// lights. TINTED_SHADOWS: surfaces that blend or transmit attenuate the light that is not hidden;
 // not with SAMPLED_SHADOWS.
 #define SHADOWS_NONE 0
 #define SHADOWS_BITS 1
@@ -162,31 +162,33 @@ static inline LightSum sampled_sum(LightSet set, MASK hidden, LightSum one, Ligh
 #endif
 #endif
 
-#define TINT_VIEW(set) (set).tints.scene.view
 #if TINTED_SHADOWS
-// The sum where surfaces tint the light: it is `one` alone, `lit` untinted with those before it.
-static inline LightSum tinted_sum(LightSet set, ShadowLight light, MASK lanes, LightSum sum,
-                                  LightSum one, LightSum lit) {
-    FV3 share;
-    set.tints.wanted = lanes;
-    MASK mask = tinted(set.tints, light, &share);
-    return lane_any(mask) ? select_sum(mask, add_tinted(sum, share, one), lit) : lit;
-}
-#define TINTED(set, light, lanes, sum, lit, ONE) tinted_sum(set, light, lanes, sum, ONE, lit)
+#define TINT_VIEW(set) (set).tints.scene.view
+// Where surfaces tint the light: `sum` plus its share of the light alone, in place of `lit`.
+#define TINT(set, light, lanes, sum, lit, EVALUATED)                            \
+    {                                                                           \
+        FV3 share;                                                              \
+        (set).tints.wanted = (lanes);                                           \
+        MASK tinted_lanes = tinted((set).tints, light, &share);                 \
+        if (lane_any(tinted_lanes)) {                                           \
+            LightSum one = EVALUATED(zero_sum());                               \
+            (lit) = select_sum(tinted_lanes, add_tinted(sum, share, one), lit); \
+        }                                                                       \
+    }
 #else
-#define TINTED(set, light, lanes, sum, lit, ONE) (lit)
+#define TINT(set, light, lanes, sum, lit, EVALUATED)
 #endif
 
 // ADD_SEEN(set, sum, seen, light, EVALUATED): adds a light where `seen`. EVALUATED(sum): the sum
 // with it, which is computed only if any lane sees it. light: as shadow rays have it.
-#define ADD_SEEN(set, sum, seen, light, EVALUATED)                            \
-    {                                                                         \
-        MASK lanes = (seen);                                                  \
-        if (lane_any(lanes)) {                                                \
-            LightSum lit = EVALUATED(sum);                                    \
-            lit = TINTED(set, light, lanes, sum, lit, EVALUATED(zero_sum())); \
-            (sum) = select_sum(lanes, lit, sum);                              \
-        }                                                                     \
+#define ADD_SEEN(set, sum, seen, light, EVALUATED)       \
+    {                                                    \
+        MASK lanes = (seen);                             \
+        if (lane_any(lanes)) {                           \
+            LightSum lit = EVALUATED(sum);               \
+            TINT(set, light, lanes, sum, lit, EVALUATED) \
+            (sum) = select_sum(lanes, lit, sum);         \
+        }                                                \
     }
 #else
 #define ADD_SEEN(set, sum, seen, light, EVALUATED) (sum) = EVALUATED(sum);

@@ -35,7 +35,8 @@ typedef struct ShadowScene {
     MaskedScene masked;
     ShadowView view;
 #if TINTED_SHADOWS
-    bool tints;  // the surfaces hide no point
+    bool tints;  // the triangles tint light and hide no points
+    global const TintCaster* tint_casters;
 #endif
 } ShadowScene;
 #define SHADOW_SCENE_OF_ARGS \
@@ -43,7 +44,8 @@ typedef struct ShadowScene {
 
 #if TINTED_SHADOWS
 // The surfaces that tint light, of the same casters.
-static inline ShadowScene tinting_scene(ShadowScene scene) {
+static inline ShadowScene tinting_scene(ShadowScene scene, global const TintCaster* casters) {
+    scene.tint_casters = casters;
     scene.nodes += scene.view.tint_root;
     scene.tints = true;
     return scene;
@@ -202,21 +204,24 @@ static inline MASK lit_by_row(const FoundTriangles* found, ShadowScene scene, Sh
         if (!lane_any(shaded)) continue;
         LaneBoxes box = {row3_of(&found->forms, 19, lane), row3_of(&found->forms, 22, lane)};
         shaded &= passes_box(light, point, box);
-#if HAS_MASKED_CASTERS
+#if TINTED_SHADOWS || HAS_MASKED_CASTERS
         uint child = found->children[lane];
-        if ((child & SHADOW_MASKED) != 0u) {
-            CasterWeights w =
-                caster_weights(u0 * found->forms.of[16][lane], u1 * found->forms.of[17][lane],
-                               u2 * found->forms.of[18][lane]);
-#if TINTED_SHADOWS
-            if (scene.tints) {
-                TintRay ray = {{u0, u1, u2}, w, splat3(light.at)};
-                if (!light.is_direction) ray.to_light = sub3(ray.to_light, point);
-                points->tints = add_surface(points->tints, scene.masked, scene.casters,
-                                            child & SHADOW_NUMBER, ray, shaded);
-                continue;
-            }
+        CasterWeights w =
+            caster_weights(u0 * found->forms.of[16][lane], u1 * found->forms.of[17][lane],
+                           u2 * found->forms.of[18][lane]);
 #endif
+#if TINTED_SHADOWS
+        if (scene.tints) {
+            TintRay ray = {{u0, u1, u2}, w, splat3(light.at)};
+            if (!light.is_direction) ray.to_light = sub3(ray.to_light, point);
+            global const TintCaster* caster = scene.tint_casters + (child & SHADOW_NUMBER);
+            points->tints =
+                add_surface(points->tints, scene.masked, scene.casters, caster, ray, shaded);
+            continue;
+        }
+#endif
+#if HAS_MASKED_CASTERS
+        if ((child & SHADOW_MASKED) != 0u) {
             shaded &= is_opaque_at(scene.masked, child & SHADOW_NUMBER, w);
         }
 #endif
@@ -252,6 +257,9 @@ static inline void find_lit_rows(ShadowPoints* points, uint first, uint end) {
 
 static inline uint caster_of(ShadowScene scene, uint child) {
     uint number = child & SHADOW_NUMBER;
+#if TINTED_SHADOWS
+    if (scene.tints) return scene.tint_casters[number].triangle;
+#endif
 #if HAS_MASKED_CASTERS
     if ((child & SHADOW_MASKED) != 0u) return scene.masked.casters[number].triangle;
 #endif

@@ -39,7 +39,7 @@ static inline MASK sees(ShadowRays rays, ShadowLight light) {
 static inline MASK tinted(ShadowRays rays, ShadowLight light, FV3* share) {
     rays.points->tints = (TintSums){(UV)(0u), (UV)(0u), (UV)(0u)};
     MASK lit = face_light(rays.points, 0u, light, rays.wanted);
-    if (lane_any(lit)) walk_to(rays, light, lit);
+    if (rays.scene.view.tint_root != 0u && lane_any(lit)) walk_to(rays, light, lit);
     TintSums sums = rays.points->tints;
     *share = fv3(share_of_units(sums.red), share_of_units(sums.green), share_of_units(sums.blue));
     return lane_mask((sums.red | sums.green | sums.blue) != (UV)(0u));

@@ -12,8 +12,8 @@
 
 // Units of log2; the rounding of a surface's share is 3.4e-7 of it.
 #define TINT_UNIT (1.0f / (1 << 20))
-// The least share that is not black [log2], of a surface and of all.
-#define TINT_LEAST 60.0f
+// Largest -log2 of a share, of a surface and of all: less light counts as 2^-60.
+#define TINT_MOST 60.0f
 
 // -log2 of the share of each channel at VW points, in units.
 typedef struct TintSums {
@@ -27,33 +27,40 @@ static inline UV tint_units(FV share) {
 }
 
 static inline UV added_units(UV sum, UV units) {
-    return min(sum + units, (UV)((uint)(TINT_LEAST / TINT_UNIT)));
+    return min(sum + units, (UV)((uint)(TINT_MOST / TINT_UNIT)));
 }
 
 static inline FV share_of_units(UV units) {
     return exp2_of_negative(lane_to_float(units) * -TINT_UNIT);
 }
 
+#if HAS_TEXCOORDS
+static inline Footprint tint_footprint(const float* u, const float* v, CasterWeights w) {
+    Footprint at;
+    at.u = weighted(u, w);
+    at.v = weighted(v, w);
+    at.u_dx = at.v_dx = at.u_dy = at.v_dy = fv(0.0f);  // textures' finest level
+    return at;
+}
+#endif
+
 // The attributes of a caster at the weights of its corners; normals are the triangle's.
-static inline Fragment tint_fragment(const MaskedCaster* caster, CasterWeights w, FV3 normal) {
+static inline Fragment tint_fragment(const TintCaster* caster, CasterWeights w, FV3 normal) {
     Fragment f = no_fragment();
     f.normal = normal;
 #if HAS_TRANSMISSION
     f.scale = fv(fabs(caster->scale));
 #endif
-#if HAS_TEXCOORDS
-    Footprint at;
-    at.u = weighted(caster->u, w);
-    at.v = weighted(caster->v, w);
-    at.u_dx = at.v_dx = at.u_dy = at.v_dy = fv(0.0f);
-#endif
 #if HAS_TEXCOORD0
-    f.texcoord0 = at;
+    f.texcoord0 = tint_footprint(caster->u0, caster->v0, w);
 #endif
 #if HAS_TEXCOORD1
-    f.texcoord1 = at;
+    f.texcoord1 = tint_footprint(caster->u1, caster->v1, w);
 #endif
 #if HAS_VERTEX_COLOR
+    f.color.x = weighted(caster->red, w);
+    f.color.y = weighted(caster->green, w);
+    f.color.z = weighted(caster->blue, w);
     f.color.w = weighted(caster->alpha, w);
 #endif
     return f;
@@ -67,17 +74,18 @@ typedef struct TintRay {
 } TintRay;
 
 // The lanes inside the edge from a to b, whose form is u, or on it where the triangle owns it. The
-// form of the triangle beyond is exactly -u, and its edge runs from b to a: one of both counts.
+// form of the triangle beyond is exactly -u, and its edge runs from b to a, so that one of the two
+// counts the point. At a vertex none or several may.
 static inline MASK inside_edge(FV u, float3 a, float3 b) {
     bool owns = a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
     return owns ? lane_mask(u >= fv(0.0f)) : lane_mask(u > fv(0.0f));
 }
 
-// Adds the surface of caster `number` at the points `passed`. Materials of one side tint light that
-// meets this side.
+// Adds the surface of a caster at the points `passed`. A material of one side tints only
+// light that reaches its front.
 static inline TintSums add_surface(TintSums sums, MaskedScene masked, global const float* casters,
-                                   uint number, TintRay ray, MASK passed) {
-    MaskedCaster caster = masked.casters[number];
+                                   global const TintCaster* of, TintRay ray, MASK passed) {
+    TintCaster caster = *of;
     global const float* corners = casters + (ulong)caster.triangle * 9u;
     float3 a = vload3(0, corners), b = vload3(1, corners), c = vload3(2, corners);
     passed &=

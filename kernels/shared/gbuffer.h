@@ -106,13 +106,14 @@ namespace kilolux {
 #define PLANE_TANGENT_Z 42
 // full, optional: float, the strength
 #define PLANE_ANISOTROPY_F 43
-// all but full, layers only: uchar4, square roots of the tint, the transmission in the 4th
+// all but full, of layers, with tinted shadows of all: uchar4, square roots of the tint, the
+// transmission in the 4th
 #define PLANE_TRANSMISSION 44
-// full, layers only: float, the tint, linear Rec. 709
+// full, of layers, with tinted shadows of all: float, the tint, linear Rec. 709
 #define PLANE_TINT_R 45
 #define PLANE_TINT_G 46
 #define PLANE_TINT_B 47
-// full, layers only: float
+// full, of layers, with tinted shadows of all: float
 #define PLANE_TRANSMISSION_F 48
 #define PLANE_COUNT 49
 #define PLANE_ABSENT 0xffffffffu

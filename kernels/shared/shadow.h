@@ -14,7 +14,7 @@
 #define SHADOW_STACK (SHADOW_LEVELS * (SHADOW_WIDTH - 1) + 1)
 
 // Bits of a child's number. SHADOW_LEAF: it is a triangle, else a node. The other one: alpha cuts
-// it, and the number is that of a MaskedCaster.
+// it, and the number is that of a MaskedCaster; in the second hierarchy that of a TintCaster.
 #define SHADOW_LEAF (1u << 31)
 #define SHADOW_MASKED (1u << 30)
 #define SHADOW_NUMBER (SHADOW_MASKED - 1u)
@@ -42,15 +42,26 @@ SHARED_STRUCT(ShadowNode) {
 };
 SHARED_ASSERT(shadow_node_size, sizeof(ShadowNode) == 448);
 
-// A triangle with an alpha mask (glTF's MASK), or of a surface that blends or transmits.
+// A triangle with an alpha mask (glTF's MASK).
 SHARED_STRUCT(MaskedCaster) {
     float u[3], v[3];  // texture coordinates of the vertices, in the set that the base colour reads
     float alpha[3];    // of the vertices' colours
     uint triangle;     // among the casters
     uint material;     // row
-    float scale;       // root mean square of its instance's scales; negative where it mirrors
+    uint unused0;
 };
 SHARED_ASSERT(masked_caster_size, sizeof(MaskedCaster) == 48);
+
+// A triangle of a surface that blends or transmits: what its vertices have.
+SHARED_STRUCT(TintCaster) {
+    float u0[3], v0[3], u1[3], v1[3];  // both sets of texture coordinates
+    float red[3], green[3], blue[3], alpha[3];
+    uint triangle;  // among the casters
+    uint material;  // row
+    float scale;    // root mean square of its instance's scales; negative where it mirrors
+    uint unused0;
+};
+SHARED_ASSERT(tint_caster_size, sizeof(TintCaster) == 112);
 
 // From view space to shadow space.
 SHARED_STRUCT(ShadowView) {

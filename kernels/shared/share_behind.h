@@ -19,9 +19,8 @@ SHARED_FN FV3 transmitted_share(Surface s, ShadingPoint p) {
 #if HAS_SPECULAR
     kept = fma(f, p.diffuse_rises, kept);
 #endif
-    FV3 f0 = diffuse_f0(s);
-    share =
-        fv3(share.x * (fv(1.0f) - f0.x), share.y * (fv(1.0f) - f0.y), share.z * (fv(1.0f) - f0.z));
+    FV3 f0 = dielectric_f0(s);
+    kept = kept * (fv(1.0f) - max(max(f0.x, f0.y), f0.z));
     through = through * kept;
 #if HAS_SHEEN_LOBE
     through = through * below_sheen(p, p.lobe.n_dot_v);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lays a lit layer over the light behind it: alpha * layer + (1 - alpha + alpha * t) * behind, with
-// the alpha of the material and what the surface transmits, t. Alpha 0, and 1 without t, keep the
-// bits of one of the two. One work-item has VW neighbours of a row.
+// the alpha of the material and what the surface transmits, t. Where alpha is 0, or is 1 with t 0,
+// the result has the bits of one of the two. One work-item has VW neighbours of a row.
 #include "kernels/device/arguments.h"
 #include "kernels/device/gbuffer.h"
 #include "kernels/device/radiance.h"
@@ -20,7 +20,7 @@ static inline FV alpha_of_layer(SurfaceScene scene, View view, Pixels pixels, UV
     return alpha;
 }
 
-// Light of no share counts for nothing, infinite or not.
+// A share of 0 gives 0, even of infinite light.
 static inline FV blended(FV alpha, FV layer, FV share, FV behind) {
     FV seen = lane_select(lane_mask(share == fv(0.0f)), fv(0.0f), share * behind);
     return lane_select(lane_mask(alpha == fv(0.0f)), behind, fma(alpha, layer, seen));
@@ -29,7 +29,8 @@ static inline FV blended(FV alpha, FV layer, FV share, FV behind) {
 // The share of the light behind that reaches the eye.
 static inline FV3 share_of_behind(GBuffer g, Pixels pixels, FV alpha) {
 #if HAS_TRANSMISSION
-    Surface s = load_surface(g, pixels, load_depth01(g, pixels));
+    FV z = view_depth(g.view, pixels.x, pixels.y, load_depth01(g, pixels));
+    Surface s = load_surface(g, pixels, z);
     return share_behind(s, make_shading_point(s, g.view.orthographic != 0u), alpha);
 #else
     FV bare = fv(1.0f) - alpha;

@@ -65,7 +65,7 @@ std::string cluster_line(const FrameStats& s) {
 
 std::string layer_line(const FrameStats& s) {
     if (s.layers == 0) return "";
-    return fmt::format("layers  {} over a pixel at most, {} pixels of them all\n", s.layers,
+    return fmt::format("layers  {} over one pixel at most, {} layer pixels in all\n", s.layers,
                        s.layer_pixels);
 }
 

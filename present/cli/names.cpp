@@ -138,7 +138,7 @@ const Choices& choices_of(LightColors) {
 const Choices& choices_of(SurfaceLayer) {
     static const Choices choices = {
         {"opaque", "the opaque ones, behind those that blend or transmit light"},
-        {"nearest", "the nearest ones; lights and clusters remain those of the opaque ones"}};
+        {"nearest", "the nearest ones; numbers of lights remain those of the opaque ones"}};
     return choices;
 }
 

@@ -7,6 +7,7 @@
 #include "host/measure/reference/decoded_samples.h"
 #include "host/measure/reference/ray_cast_reference.h"
 #include "host/render/renderer.h"
+#include "host/scene/lights/prefiltered_environment.h"
 #include "tests/support/render_fixture.h"
 #include "tests/support/sphere_scene.h"
 
@@ -157,6 +158,42 @@ TEST(Glass, CastsTintedShadowsOrNone) {
     }
 }
 
+// Maps of the second set of coordinates, and colours of vertices.
+TEST(Glass, ShadowsAreTintedByEveryAttribute) {
+    Scene scene = glass_scene();
+    for (const std::size_t pane : {1u, 2u}) {
+        Mesh& mesh = scene.meshes[pane];
+        mesh.texcoords[1] = {{0.2f, 0.9f}, {0.8f, 1}, {0.7f, 0.1f}, {0.1f, 0}};
+        mesh.colors = {{1, 0.5f, 1, 1}, {1, 1, 0.3f, 1}, {0.4f, 1, 1, 1}, {1, 1, 1, 1}};
+        scene.materials[pane].transmission_texture = add_noise(scene, 4, 20, {64, 0, 0});
+        scene.materials[pane].transmission_texture.uv_set = 1;
+        scene.materials[pane].base_color_texture = add_noise(scene, 4, 21, {64, 64, 64});
+    }
+    RenderSettings settings = glass_settings();
+    settings.shadows = Shadows::exact;
+    const std::vector<double> found = glass_differences(scene, settings);
+    EXPECT_LT(quantile(found, 0.5), 3e-5);
+    EXPECT_LT(quantile(found, 0.95), 2e-3);
+}
+
+// Before an even environment a white pane that transmits all of its light reflects what is not
+// transmitted: both are the light of the environment, but for what Fresnel takes twice.
+TEST(Glass, ReflectsNoDiffuseLightOfAnEnvironmentThatItTransmits) {
+    Scene scene;
+    add_glass_pane(scene, glass(glm::vec3(1.0f)), 0.0, 0.0);
+    RenderSettings settings = small_settings(17, 17, 0);
+    settings.ambient = 0.0f;
+    const Environment even{1, 1, {glm::vec3(0.5f)}};
+    settings.background = std::make_shared<const Environment>(even);
+    settings.reflections = std::make_shared<const PrefilteredEnvironment>(prefiltered(even));
+    for (const Shading shading : {Shading::pbr, Shading::lambert}) {
+        settings.shading = shading;
+        const Frame frame =
+            Renderer(scene, settings).render(look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 0.5), 0.0);
+        EXPECT_NEAR(frame.radiance[3 * (8 * 17 + 8)], 0.5f, 0.01f);
+    }
+}
+
 // A lamp before panes that darken a wall: colour^panes, in any order of the panes.
 TEST(Glass, SharesOfShadowsMultiply) {
     Material wall;
@@ -183,7 +220,7 @@ TEST(Glass, SharesOfShadowsMultiply) {
         settings.ambient = 0.0f;
         settings.shadows = Shadows::exact;
         settings.kernels.lanes = lanes;
-        // Below the panes, which are seen edge on.
+        // From between the panes and the wall.
         return Renderer(scene, settings)
             .render(look_at({0, 0, -0.2}, {0, 0, -1}, {0, 1, 0}, 0.5), 0.0)
             .radiance;
@@ -383,6 +420,20 @@ TEST(Glass, AovsTellOfTheLayerAskedFor) {
             EXPECT_GT(several, 1000);
         }
     }
+}
+
+// Before background, too, where no light is evaluated for an opaque surface.
+TEST(Glass, NearestSurfacesBeforeBackgroundHaveNoLights) {
+    Scene scene;
+    add_glass_pane(scene, glass(glm::vec3(0.5f)), 0.0, 0.0);
+    RenderSettings settings = small_settings(16, 16, 10);
+    settings.want.aovs = {"depth", "light-count"};
+    settings.want.layer = SurfaceLayer::nearest;
+    settings.want.view = ViewKind::lights;
+    const Frame frame =
+        Renderer(scene, settings).render(look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 0.2), 0.0);
+    for (const float depth : frame.aovs[0].values) EXPECT_NEAR(depth, 5.0f, 1e-3f);
+    for (const std::uint32_t count : frame.aovs[1].ids) EXPECT_EQ(count, 0u);
 }
 
 TEST(Glass, TheProbeListsTheLayersFromNearToFar) {

@@ -100,6 +100,8 @@ std::vector<SharedStruct> shared_structs() {
           {"row.clearcoat", offsetof(MaterialRow, clearcoat)},
           {"row.sheen", offsetof(MaterialRow, sheen)},
           {"row.anisotropy", offsetof(MaterialRow, anisotropy)},
+          {"row.volume", offsetof(MaterialRow, volume)},
+          {"row.transmission", offsetof(MaterialRow, transmission)},
           {"row.uv_x[0]", offsetof(MaterialRow, uv_x)},
           {"row.uv_y[0]", offsetof(MaterialRow, uv_y)},
           {"textures[0]", offsetof(SurfaceMaterial, textures)},

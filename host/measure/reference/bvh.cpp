@@ -72,10 +72,6 @@ double entry(const PreparedRay& ray, const Box& box, double t_min, double t_max)
     return near <= far ? near : std::numeric_limits<double>::infinity();
 }
 
-bool drawn_before(const BvhTriangle& a, const BvhTriangle& b) {
-    return a.instance != b.instance ? a.instance < b.instance : a.triangle < b.triangle;
-}
-
 // The nearest accepted hit so far; t_max is its t.
 struct Nearest {
     std::optional<RayHit> hit;
@@ -237,6 +233,10 @@ Bvh::Bvh(std::vector<BvhTriangle> triangles) {
     nodes_.resize(1);
     builder.build(0, 0, triangles.size(), 0);
     for (const Item& item : builder.items) triangles_.push_back(triangles[item.triangle]);
+}
+
+bool drawn_before(const BvhTriangle& a, const BvhTriangle& b) {
+    return a.instance != b.instance ? a.instance < b.instance : a.triangle < b.triangle;
 }
 
 void merge_on_edges(std::vector<RayHit>& hits, std::span<const BvhTriangle> triangles) {

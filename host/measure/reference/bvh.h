@@ -33,6 +33,9 @@ struct RayHit {
     std::uint32_t index = 0;          // into Bvh::triangles()
 };
 
+/// The order in which the rasteriser draws them.
+bool drawn_before(const BvhTriangle& a, const BvhTriangle& b);
+
 /// Leaves one of the hits of a ray on the common edge of two triangles of an instance.
 void merge_on_edges(std::vector<RayHit>& hits, std::span<const BvhTriangle> triangles);
 

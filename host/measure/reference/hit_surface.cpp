@@ -14,10 +14,6 @@ const Instance& instance_of(const SurfaceHit& hit) {
     return hit.scene.instances[hit.triangle.instance];
 }
 
-const Mesh& mesh_of(const SurfaceHit& hit) {
-    return hit.scene.meshes[static_cast<std::size_t>(instance_of(hit).mesh)];
-}
-
 // -1 for a mirroring transform.
 double orientation(const SurfaceHit& hit) {
     return glm::determinant(glm::dmat3(instance_of(hit).world_from_object)) < 0.0 ? -1.0 : 1.0;
@@ -178,7 +174,8 @@ void set_transmission(const SurfaceHit& hit, const Footprints& uv, SurfaceSample
         glm::dot(turn[0], turn[0]) + glm::dot(turn[1], turn[1]) + glm::dot(turn[2], turn[2]);
     const double length = m.thickness * texel(hit, USE_THICKNESS, uv).y * std::sqrt(squares / 3.0);
     const glm::dvec3 color = glm::max(glm::dvec3(m.attenuation_color), 1e-30);
-    out.tint = glm::pow(color, glm::dvec3(length / double{m.attenuation_distance}));
+    out.tint =
+        glm::pow(color, glm::dvec3(length / std::max(double{m.attenuation_distance}, 1e-30)));
 }
 
 void set_reflectance(const SurfaceHit& hit, const Footprints& uv, SurfaceSample& out) {
@@ -200,6 +197,10 @@ void apply_unlit(SurfaceSample& surface) {
 }
 
 }  // namespace
+
+const Mesh& mesh_of(const SurfaceHit& hit) {
+    return hit.scene.meshes[static_cast<std::size_t>(instance_of(hit).mesh)];
+}
 
 const Material& material_of(const SurfaceHit& hit) {
     static const Material kDefault;
@@ -239,7 +240,7 @@ SurfaceSample surface_at(const SurfaceHit& hit) {
     set_sheen(hit, uv, out);
     set_anisotropy(hit, uv, out);
     set_transmission(hit, uv, out);
-    out.blended = is_blended(material);
+    out.blended = is_blended(hit.scene, mesh_of(hit));
     out.coverage = coverage_at(hit);
     if (material.unlit) apply_unlit(out);
     return out;

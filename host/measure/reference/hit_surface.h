@@ -20,6 +20,8 @@ struct SurfaceHit {
 /// The material of the triangle's mesh, or glTF's default one.
 const Material& material_of(const SurfaceHit& hit);
 
+const Mesh& mesh_of(const SurfaceHit& hit);
+
 /// Whether the ray arrives on the front: the side from which the corners are counter-clockwise in
 /// object space.
 bool front_facing(const SurfaceHit& hit);

@@ -53,7 +53,7 @@ std::vector<RayHit> RayCaster::surfaces_along(const PixelRay& ray, const Camera&
     const auto stops = [&](const RayHit& candidate) {
         const SurfaceHit hit = hit_of(candidate, ray);
         if (!is_drawn(hit)) return false;
-        if (is_blended(material_of(hit))) {
+        if (is_blended(scene_, mesh_of(hit))) {
             out.push_back(candidate);
             return false;
         }
@@ -68,8 +68,9 @@ std::vector<RayHit> RayCaster::surfaces_along(const PixelRay& ray, const Camera&
     const RayHit end = opaque.value_or(RayHit{.t = std::numeric_limits<double>::infinity()});
     std::erase_if(out, [&](const RayHit& hit) { return hit.t >= end.t; });
     out.push_back(end);
-    std::ranges::sort(out, [](const RayHit& a, const RayHit& b) {
-        return std::pair(a.t, a.index) > std::pair(b.t, b.index);
+    const std::vector<BvhTriangle>& triangles = bvh_.triangles();
+    std::ranges::sort(out, [&](const RayHit& a, const RayHit& b) {
+        return a.t != b.t ? a.t > b.t : drawn_before(triangles[b.index], triangles[a.index]);
     });
     return out;
 }

@@ -154,7 +154,9 @@ glm::dvec3 reference_share_behind(const SurfaceSample& s, const glm::dvec3& to_e
         const double n_dot_v = std::max(glm::dot(s.normal, to_eye), kNDotVMin);
         const double schlick = std::pow(std::max(1.0 - n_dot_v, 0.0), 5.0);
         const double taken = reference_sheen_albedo(n_dot_v, s.sheen_roughness);
-        through *= 1.0 - diffuse_loss(s, schlick);
+        SurfaceSample dielectric = s;
+        dielectric.metallic = 0.0;
+        through *= 1.0 - diffuse_loss(dielectric, schlick);
         through *= 1.0 - std::max({s.sheen.x, s.sheen.y, s.sheen.z}) * taken;
         through *= 1.0 - reference_coat_share(s, to_eye, model);
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/measure/reference/shadow_caster.h"
 
+#include <cmath>
+
 #include "host/measure/reference/hit_surface.h"
 #include "host/measure/reference/reference_brdf.h"
 
@@ -27,7 +29,7 @@ bool ShadowCaster::hides(const Ray& ray, const RayHit& hit) const {
     pixel_ray.direction = ray.direction;
     const SurfaceHit surface{scene_, textures_, bvh_.triangles()[hit.index], hit, pixel_ray};
     const Material& material = material_of(surface);
-    if (is_blended(material)) return false;
+    if (is_blended_at(hit)) return false;
     if (material.alpha_mode != AlphaMode::mask) return true;
     return base_color_at(surface).w >= static_cast<double>(material.alpha_cutoff);
 }
@@ -45,9 +47,16 @@ std::optional<ShadowPoint> ShadowCaster::point_at(const glm::dvec3& p_view, bool
     ray.origin = camera_.position + way - ray.direction;
     ray.t_min = 1.0 - kDepthError;
     ray.t_max = 1.0 + kDepthError;
-    const auto hit = bvh_.nearest(ray, [&](const RayHit& found) {
-        return blended ? is_blended_at(found) : hides(ray, found);
-    });
+    std::optional<RayHit> hit;
+    if (blended) {  // the nearest to the given point: walls of thin glass are near each other
+        bvh_.nearest(ray, [&](const RayHit& found) {
+            if (!is_blended_at(found)) return false;
+            if (!hit || std::abs(found.t - 1.0) < std::abs(hit->t - 1.0)) hit = found;
+            return false;
+        });
+    } else {
+        hit = bvh_.nearest(ray, [&](const RayHit& found) { return hides(ray, found); });
+    }
     if (!hit) return std::nullopt;
     const BvhTriangle& triangle = bvh_.triangles()[hit->index];
     ShadowPoint out;

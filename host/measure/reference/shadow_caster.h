@@ -20,9 +20,9 @@ struct ShadowPoint {
 };
 
 /// Finds which lights points see, by rays in double, as the reference of the kernels' shadows.
-/// Every triangle hides from both sides; alpha masks are sampled at their finest level. Those that
-/// blend or transmit hide nothing, but let a share pass: see share(). A point sees no light on the
-/// other side of its own triangle.
+/// Every triangle hides from both sides; alpha masks are sampled at their finest level. Triangles
+/// that blend or transmit hide nothing, but let a share pass: see share(). A point sees no light on
+/// the other side of its own triangle.
 class ShadowCaster {
  public:
     /// Builds the hierarchy. Keeps a reference to the scene.

@@ -25,8 +25,8 @@ struct SurfaceSample {
     SURFACE_VALUES(SAMPLE_VECTOR, SAMPLE_SCALAR)
 #undef SAMPLE_VECTOR
 #undef SAMPLE_SCALAR
-    double coverage = 1.0;  // of what is behind: its material's alpha
-    bool blended = false;   // it lies over what is behind
+    double coverage = 1.0;  // the share of what is behind that it covers: its material's alpha
+    bool blended = false;   // whether anything behind is seen through it
     SurfaceKind kind = SurfaceKind::background;
     std::uint32_t instance = 0;  // of the scene, where a ray hit
     std::uint32_t triangle = 0;  // of the instance's mesh

@@ -150,7 +150,8 @@ ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings,
     if (in_tree > 0) {
         if (features.alpha_blend) {
             throw UsageError(
-                "tails tree: not for scenes with blended surfaces; take --tails exact");
+                "tails tree: not for scenes with surfaces that blend or transmit; take --tails "
+                "exact");
         }
         features.wide_light_index = light_count + 2 * in_tree > 65536;
     }

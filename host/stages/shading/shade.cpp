@@ -30,7 +30,6 @@ BuildOptions shadow_options(BuildOptions options, int way, const KernelFeatures&
     options.define("SHADOWS", way).define("SAMPLED_SHADOWS", features.sampled_shadows);
     if (features.tinted_shadows) {
         options.define("TINTED_SHADOWS", 1);
-        surfaces.masks = true;  // all that tint are masked casters
         surfaces.anisotropy = 1;
     }
     if (way == kShadowRays || features.tinted_shadows) {

@@ -214,6 +214,7 @@ ShadowCasters deep_casters(const Gpu& gpu, std::size_t levels) {
             new_buffer(gpu, none),
             new_buffer(gpu, none),
             new_buffer(gpu, none),
+            new_buffer(gpu, none),
             new_buffer(gpu, none)};
 }
 
