@@ -53,7 +53,7 @@ KernelFeatures every_feature(int shading) {
     KernelFeatures features;
     features.shading = shading;
     features.material = features.metallic = features.occlusion = features.specular = true;
-    features.clearcoat = features.sheen = features.anisotropy = true;
+    features.clearcoat = features.sheen = features.anisotropy = features.transmission = true;
     features.spot_lights = features.directional_lights = true;
     return features;
 }

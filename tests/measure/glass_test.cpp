@@ -183,14 +183,14 @@ TEST(Glass, ReflectsNoDiffuseLightOfAnEnvironmentThatItTransmits) {
     add_glass_pane(scene, glass(glm::vec3(1.0f)), 0.0, 0.0);
     RenderSettings settings = small_settings(17, 17, 0);
     settings.ambient = 0.0f;
-    const Environment even{1, 1, {glm::vec3(0.5f)}};
+    const Environment even{16, 8, std::vector<glm::vec3>(128, glm::vec3(0.5f))};
     settings.background = std::make_shared<const Environment>(even);
     settings.reflections = std::make_shared<const PrefilteredEnvironment>(prefiltered(even));
     for (const Shading shading : {Shading::pbr, Shading::lambert}) {
         settings.shading = shading;
         const Frame frame =
             Renderer(scene, settings).render(look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 0.5), 0.0);
-        EXPECT_NEAR(frame.radiance[3 * (8 * 17 + 8)], 0.5f, 0.01f);
+        EXPECT_NEAR(frame.radiance[3 * (8 * 17 + 8)], 0.5f, 0.01f) << static_cast<int>(shading);
     }
 }
 

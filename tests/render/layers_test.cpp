@@ -203,7 +203,7 @@ TEST(Layers, OfAlphaOneAreLitAsOpaqueSurfacesAre) {
     RenderSettings settings = small_settings(kWidth, kHeight, 300);
     settings.geometry = Geometry::compute;
     settings.reflections = std::make_shared<const PrefilteredEnvironment>(
-        prefiltered(Environment{1, 1, {glm::vec3(0.3f)}}));
+        prefiltered(Environment{16, 8, std::vector<glm::vec3>(128, glm::vec3(0.3f))}));
     EXPECT_TRUE(render_once(opaque, settings).radiance == render_once(blended, settings).radiance);
 }
 

@@ -100,6 +100,7 @@ std::vector<SurfaceSample> random_surfaces(uint width, uint height) {
         s.coat_normal = s.normal;
         s.sheen = {random.unit(), random.unit(), random.unit()};
         s.sheen_roughness = random.uniform(0.1, 1.0);
+        s.transmission = random.unit();
         s.tangent = glm::normalize(glm::cross(s.normal, random.direction()));
         s.anisotropy = random.unit();
         surfaces.push_back(s);
