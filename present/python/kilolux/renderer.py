@@ -60,6 +60,8 @@ class Probe:
 
     lights  of the list that is evaluated: position [n, 3], intensity [n, 3] candela, range [n];
             empty with renderer="forward", which has no lists
+    layers  surfaces in front that blend or transmit, from near to far: depth, position, normal,
+            albedo, roughness, metallic, transmission and the name of their material
     """
 
     drawn: bool
@@ -72,6 +74,7 @@ class Probe:
     cluster: tuple[int, int, int]
     coarse_lights: int
     lights: dict[str, np.ndarray]
+    layers: list[dict[str, Any]]
 
 
 @dataclass(frozen=True)
