@@ -7,7 +7,7 @@
 #include "kernels/device/triangle.h"
 #include "kernels/shadows/masked_caster.h"
 #include "kernels/shadows/shadow_space.h"
-#include "kernels/shared/share_behind.h"
+#include "kernels/shared/evaluate.h"
 #include "kernels/shared/surface_of.h"
 
 // Units of log2; the rounding of a surface's share is 3.4e-7 of it.

@@ -5,7 +5,7 @@
 #include "kernels/device/arguments.h"
 #include "kernels/device/gbuffer.h"
 #include "kernels/device/radiance.h"
-#include "kernels/shared/share_behind.h"
+#include "kernels/shared/evaluate.h"
 #include "kernels/surfaces/alpha_mask.h"
 
 static inline FV alpha_of_layer(SurfaceScene scene, View view, Pixels pixels, UV ids, MASK shown) {

@@ -5,7 +5,7 @@
 // HAS_ANISOTROPY, HAS_TRANSMISSION, HAS_UNLIT, HAS_LIGHT_PROFILES as in evaluate.h;
 // HAS_DIRECTIONAL_LIGHTS. BLENDED: the material lets light through.
 #include "raster/shaders/surface.glsl"
-#include "kernels/shared/share_behind.h"
+#include "kernels/shared/evaluate.h"
 
 layout(std140, binding = FORWARD_BLOCK) uniform ForwardBlock { ForwardRow frame; };
 layout(std430, binding = 0) readonly buffer DirectionalLights {
