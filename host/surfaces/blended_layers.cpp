@@ -38,10 +38,11 @@ void BlendedLayers::each(SurfaceScene& on_device, const Camera& camera, const GB
     layer.scene = on_device.at(draws);
     const TriangleLists lists = list_triangles(layer.scene, draws, view, timer);
     raster_.begin(opaque, timer);
-    while (true) {
+    for (RasterLayers::Drawn drawn{0, true}; drawn.may_go_on;) {
         check_interrupt();
         layer.ids = raster_.enqueue(layer.scene, lists, timer);
-        layer.pixels = raster_.pixels();
+        drawn = raster_.drawn();
+        layer.pixels = drawn.pixels;
         if (layer.pixels == 0) return;
         layer.surfaces = resolve_.enqueue(
             layer.ids, layer.scene, make_gbuffer_layout(plan_.gbuffer, view.stride, view.height),

@@ -43,7 +43,8 @@ kernel void raster_layers(View view, SCENE_ARGS, TRIANGLE_LIST_ARGS(const),  // 
                           uint is_first,
                           global float* restrict keys,    // in, out [height][stride]: of the layer
                           global uint* restrict ids,      // in, out: triangle + 1; 0: none
-                          global uint* restrict drawn) {  // out [1]: pixels that have the layer
+                          global uint* restrict drawn) {  // out [2]: pixels that have the layer,
+                                                          // and that may have more
     SurfaceScene scene = SCENE_OF_ARGS;
     ItemPlace at = place_in_planes(view);
     if (!at.inside) return;
@@ -62,6 +63,7 @@ kernel void raster_layers(View view, SCENE_ARGS, TRIANGLE_LIST_ARGS(const),  // 
     float y = ray_y(view, at.y);
     FV key = fv(INFINITY);
     UV id = (UV)(0u);
+    MASK one = (MASK)(0), several = (MASK)(0);  // fragments in front, before decide_exactly()
     uint tile = at.y / TILE_HEIGHT * raster_tiles_x(view) + at.x / TILE_WIDTH;
     uint end = min(offsets[tile + 1], capacity);
     for (uint i = offsets[tile]; i < end; ++i) {
@@ -78,7 +80,10 @@ kernel void raster_layers(View view, SCENE_ARGS, TRIANGLE_LIST_ARGS(const),  // 
         MASK in_front =
             lane_mask(k > last_key) | (lane_mask(k == last_key) & lane_mask(k_id < last_id));
         MASK behind_best = lane_mask(k < key) | (lane_mask(k == key) & lane_mask(k_id > id));
-        wins &= in_front & behind_best & lane_mask(k <= near) & lane_mask(least >= fv(-1.0f));
+        wins &= in_front & lane_mask(k <= near) & lane_mask(least >= fv(-1.0f));
+        several |= one & wins;
+        one |= wins;
+        wins &= behind_best;
         MASK unsure = wins & lane_mask(!(least > fv(1.0f)));
         if (lane_any(unsure)) {
             wins = (wins & ~unsure) | decide_exactly(scene, view, number, unsure, x, y);
@@ -90,4 +95,5 @@ kernel void raster_layers(View view, SCENE_ARGS, TRIANGLE_LIST_ARGS(const),  // 
     lane_store(lane_select(found, key, last_key), keys + pixels.first);
     lane_store(id, ids + pixels.first);
     if (lane_any(found)) atomic_add(drawn, popcount(lane_ballot(found)));
+    if (lane_any(several)) atomic_add(drawn + 1, popcount(lane_ballot(several)));
 }

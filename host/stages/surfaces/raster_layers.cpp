@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/surfaces/raster_layers.h"
 
+#include <array>
+#include <vector>
+
 namespace kilolux {
 namespace {
 
@@ -46,14 +49,17 @@ void RasterLayers::begin(const GBuffer& opaque, StageTimer& timer) {
 
 DeviceArray<uint> RasterLayers::enqueue(const SurfaceBuffers& scene, const TriangleLists& lists,
                                         StageTimer& timer) {
-    const uint none = 0;
-    upload<uint>(gpu_, drawn_.reserve(1), std::span(&none, 1));
+    constexpr std::array<uint, 2> kNone{};
+    upload<uint>(gpu_, drawn_.reserve(kNone.size()), kNone);
     draw_.enqueue(draw_.pixel_items(view_, tuning_.shade_rows), timer, view_, scene, lists,
                   LayerState{is_first_ ? 1u : 0u, keys_.get(), ids_.get(), drawn_.get()});
     is_first_ = false;
     return ids_.get();
 }
 
-std::uint64_t RasterLayers::pixels() const { return download<uint>(gpu_, drawn_.get(), 1).front(); }
+RasterLayers::Drawn RasterLayers::drawn() const {
+    const std::vector<uint> counts = download<uint>(gpu_, drawn_.get(), 2);
+    return {counts[0], counts[1] > 0};
+}
 
 }  // namespace kilolux

@@ -26,8 +26,13 @@ class RasterLayers {
     DeviceArray<uint> enqueue(const SurfaceBuffers& scene, const TriangleLists& lists,
                               StageTimer& timer);
 
-    /// How many pixels the last layer covers; 0: there was none. Blocks.
-    std::uint64_t pixels() const;
+    /// The last layer.
+    struct Drawn {
+        std::uint64_t pixels = 0;  // that it covers; 0: there was none
+        bool may_go_on = false;    // else it was the nearest
+    };
+    /// Blocks.
+    Drawn drawn() const;
 
  private:
     Gpu gpu_;
