@@ -72,6 +72,7 @@ struct FrameStats : PairCounts {
     std::uint64_t texels = 0;           // read at least: four for a mip level of a texture
     std::uint64_t layers = 0;           // of surfaces that blend, over one pixel at most
     std::uint64_t layer_pixels = 0;     // pixels covered, summed over layers and samples
+    std::uint64_t layer_tiles = 0;      // of FINE_TILE pixels a side, likewise; 0: not counted
     std::uint32_t grid[3] = {0, 0, 0};  // tiles x, tiles y, slices
     // k, over pixels that are not background; < 0: not counted. Forward shading counts fragments
     // that later ones hide, too.

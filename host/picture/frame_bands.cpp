@@ -100,8 +100,8 @@ void add_band(FrameStats& whole, const FrameStats& band) {
                              &S::refined_pairs, &S::surface_pixels, &S::evaluations}) {
         whole.*count += band.*count;
     }
-    for (const auto count :
-         {&S::triangles, &S::triangle_pairs, &S::seen_triangles, &S::texels, &S::layer_pixels}) {
+    for (const auto count : {&S::triangles, &S::triangle_pairs, &S::seen_triangles, &S::texels,
+                             &S::layer_pixels, &S::layer_tiles}) {
         whole.*count += band.*count;
     }
     whole.layers = std::max(whole.layers, band.layers);

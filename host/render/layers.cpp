@@ -2,6 +2,7 @@
 #include "host/render/layers.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace kilolux {
 
@@ -9,6 +10,23 @@ SurfacePlan layer_plan(const RenderContext& context) {
     const ScenePlan plan = context.plan.of_layers();
     return {plan.kernels, context.surface_features(plan), plan.gbuffer};
 }
+
+namespace {
+
+// Fine tiles that show a triangle. ids: [height][stride].
+std::uint64_t covered_tiles(const std::vector<uint>& ids, const View& view) {
+    const std::size_t across = (view.width + FINE_TILE - 1) / FINE_TILE;
+    std::vector<char> covered(across * ((view.height + FINE_TILE - 1) / FINE_TILE), 0);
+    for (std::size_t y = 0; y < view.height; ++y) {
+        for (std::size_t x = 0; x < view.width; ++x) {
+            if (ids[y * view.stride + x] == 0) continue;
+            covered[y / FINE_TILE * across + x / FINE_TILE] = 1;
+        }
+    }
+    return static_cast<std::uint64_t>(std::ranges::count(covered, 1));
+}
+
+}  // namespace
 
 Layers::Layers(RenderContext& context)
     : context_(context),
@@ -46,6 +64,12 @@ void Layers::draw(const Sample& sample, BlendedLayers& layers, const LitBand& ba
     const auto lay = [&](const BlendedLayer& next) {
         ++count;
         out.stats.layer_pixels += next.pixels;
+        if (context_.settings.want.counts) {
+            const View& view = next.surfaces.view;
+            out.stats.layer_tiles += covered_tiles(
+                download<uint>(context_.gpu, next.ids, std::size_t{view.stride} * view.height),
+                view);
+        }
         layer.surfaces = next.surfaces;
         if (origins_) {
             layer.shadows.origins =

@@ -38,6 +38,7 @@ void add_frame(Json& out, const FrameRecord& record) {
         out["triangles"] = {{"in_view", s.triangles}, {"tile_pairs", s.triangle_pairs}};
     }
     if (s.layers > 0) out["layers"] = {{"most", s.layers}, {"pixels", s.layer_pixels}};
+    if (s.layer_tiles > 0) out["layers"]["tiles"] = s.layer_tiles;
     const auto counted = [&](double mean) {
         return mean < 0.0 || !lists_lights(s) ? Json(nullptr) : Json(mean);
     };

@@ -235,6 +235,22 @@ TEST(Layers, AreShadowedByOpaqueSurfaces) {
     EXPECT_GT(std::ranges::count(differences, 1.0, [](double d) { return std::round(d); }), 100);
 }
 
+// One pane covers the view, another one a pixel beside a corner of four tiles, and no tile twice.
+TEST(Layers, AreCounted) {
+    const Pane wall{{0, 0, -1}, {9, 0, 0}, {0, 9, 0}, {0, 0, 0, 1}};
+    const Pane all{{0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {1, 1, 1, 0.5f}};
+    const Pane dot{{0.02, 0.02, 1.0}, {0.03, 0, 0}, {0, 0.03, 0}, {1, 1, 1, 0.5f}};
+    RenderSettings settings = layer_settings();
+    settings.want.counts = true;
+    const Frame frame = Renderer(scene_of(std::vector{wall, all, dot}), settings)
+                            .render(look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 0.7), 0.0);
+    EXPECT_EQ(frame.stats.layers, 2u);
+    const std::uint64_t dots = frame.stats.layer_pixels - kWidth * kHeight;
+    EXPECT_GT(dots, 0u);
+    EXPECT_LT(dots, 16u);
+    EXPECT_EQ(frame.stats.layer_tiles, kWidth * kHeight / (FINE_TILE * FINE_TILE) + 1u);
+}
+
 TEST(Layers, TakeNoStageOfASceneWithoutThem) {
     const RenderSettings settings = small_settings(kWidth, kHeight, 10);
     EXPECT_FALSE(has_stage(render_once(make_generated_scene("grid"), settings), "raster_layers"));

@@ -225,7 +225,7 @@ TEST(LightTreePictures, AreRefusedWhereThereAreNone) {
     expect_refused(scene, settings, "no shadows");
     settings.shadows = Shadows::off;
     for (Material& material : scene.materials) material.alpha_mode = AlphaMode::blend;
-    expect_refused(scene, settings, "blended");
+    expect_refused(scene, settings, "blend or transmit");
 }
 
 }  // namespace
