@@ -19,6 +19,7 @@ constexpr SceneFeature kTable[] = {
     {"occlusion", &F::occlusion, "HAS_OCCLUSION", true},
     {"specular", &F::specular, "HAS_SPECULAR", true},
     {"clearcoat", &F::clearcoat, "HAS_CLEARCOAT", true},
+    {"coat-normals", &F::coat_normals, "HAS_COAT_NORMAL", true},
     {"sheen", &F::sheen, "HAS_SHEEN", true},
     {"anisotropy", &F::anisotropy, "HAS_ANISOTROPY", true},
     {"transmission", &F::transmission, "HAS_TRANSMISSION"},

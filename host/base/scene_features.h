@@ -23,6 +23,7 @@ struct SceneFeatures {
     bool occlusion = false;        // an occlusion texture, and ambient light that it darkens
     bool specular = false;         // dielectrics that reflect otherwise than 4 %
     bool clearcoat = false;        // surfaces with a clear coat
+    bool coat_normals = false;     // coats with other normals than the surfaces below them
     bool sheen = false;            // surfaces with sheen
     bool anisotropy = false;       // surfaces that stretch highlights
     bool transmission = false;     // surfaces that light passes through

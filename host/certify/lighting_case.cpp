@@ -53,7 +53,8 @@ KernelFeatures every_feature(int shading) {
     KernelFeatures features;
     features.shading = shading;
     features.material = features.metallic = features.occlusion = features.specular = true;
-    features.clearcoat = features.sheen = features.anisotropy = features.transmission = true;
+    features.clearcoat = features.coat_normals = features.sheen = true;
+    features.anisotropy = features.transmission = true;
     features.spot_lights = features.directional_lights = true;
     return features;
 }

@@ -43,7 +43,7 @@ inline constexpr std::array<MaterialMap, USE_COUNT> kMaterialMaps = {{
     {USE_CLEARCOAT_ROUGHNESS, "extensions.KHR_materials_clearcoat.clearcoatRoughnessTexture",
      &Material::clearcoat_roughness_texture, false, "g", &SceneFeatures::clearcoat},
     {USE_CLEARCOAT_NORMAL, "extensions.KHR_materials_clearcoat.clearcoatNormalTexture",
-     &Material::clearcoat_normal_texture, false, "rgb", &SceneFeatures::clearcoat},
+     &Material::clearcoat_normal_texture, false, "rgb", &SceneFeatures::coat_normals},
     {USE_SHEEN_COLOR, "extensions.KHR_materials_sheen.sheenColorTexture",
      &Material::sheen_color_texture, true, "rgb", &SceneFeatures::sheen},
     {USE_SHEEN_ROUGHNESS, "extensions.KHR_materials_sheen.sheenRoughnessTexture",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes VW pixels of a G-buffer. GBUFFER, HAS_MATERIAL, HAS_OCCLUSION, HAS_SPECULAR,
-// HAS_CLEARCOAT, HAS_SHEEN and HAS_ANISOTROPY say what it holds.
+// Decodes VW pixels of a G-buffer. GBUFFER and the first column of SURFACE_VALUES say what it
+// holds.
 #ifndef KILOLUX_DEVICE_GBUFFER_H
 #define KILOLUX_DEVICE_GBUFFER_H
 #include "kernels/device/lanes.h"
@@ -209,6 +209,9 @@ static inline Surface load_surface(GBuffer g, Pixels pixels, FV z) {
     Surface s = default_surface();
     s.position = load_position(g, pixels, z);
     s.normal = load_normal(g, pixels);
+#if HAS_CLEARCOAT && !HAS_COAT_NORMAL
+    s.coat_normal = s.normal;
+#endif
 #if GBUFFER == GBUFFER_FULL
     return load_float_material(g, pixels, s);
 #elif GBUFFER == GBUFFER_OCT_2X4

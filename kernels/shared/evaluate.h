@@ -65,10 +65,19 @@ SHARED_FN LightSum add_blinn_phong(LightSum sum, ShadingPoint p, FV3 v, FV dista
 }
 
 #elif SHADING == SHADING_PBR
-// Light of `lit` = intensity's weight * falloff * n.l.
-SHARED_FN LightSum add_pbr(LightSum sum, ShadingPoint p, HalfVector half_way, FV n_dot_l, FV lit,
+// The light that meets a surface.
+SHARED_PLAIN_STRUCT(IncidentLight) {
+    FV3 v;          // towards the light
+    FV inv_length;  // of v
+    FV n_dot_l;     // at least 0
+    FV weight;      // intensity's weight * falloff
+    FV lit;         // that times n.l
+};
+
+SHARED_FN LightSum add_pbr(LightSum sum, ShadingPoint p, HalfVector half_way, IncidentLight from,
                            float4 color) {
-    FV lobe = ggx_light(p.lobe, p.normal, half_way, n_dot_l, lit);
+    FV lit = from.lit;
+    FV lobe = ggx_light(p.lobe, half_way, from.n_dot_l, lit);
     FV schlick = max(fma(-dot3(p.to_eye, half_way.h), lane_rsqrt(half_way.hh), fv(1.0f)), fv(0.0f));
     FV schlick2 = schlick * schlick;
     FV f = schlick2 * schlick2 * schlick;
@@ -90,11 +99,14 @@ SHARED_FN LightSum add_pbr(LightSum sum, ShadingPoint p, HalfVector half_way, FV
 }
 
 #if HAS_COAT
-// Light of the direction `v` * `inv_length` and of intensity's weight * falloff.
-SHARED_FN LightSum add_coat(LightSum sum, ShadingPoint p, HalfVector half_way, FV3 v, FV inv_length,
-                            FV weight, float4 color) {
-    FV n_dot_l = max(dot3(p.coat_normal, v), fv(0.0f)) * inv_length;
-    FV lobe = ggx_light(p.coat, p.coat_normal, half_way, n_dot_l, weight * n_dot_l);
+SHARED_FN LightSum add_coat(LightSum sum, ShadingPoint p, HalfVector half_way, IncidentLight from,
+                            float4 color) {
+#if HAS_COAT_NORMAL
+    from.n_dot_l = max(dot3(p.coat_normal, from.v), fv(0.0f)) * from.inv_length;
+    from.lit = from.weight * from.n_dot_l;
+    half_way = about_normal(half_way, p.coat_normal);
+#endif
+    FV lobe = ggx_light(p.coat, half_way, from.n_dot_l, from.lit);
     sum.coat = add_scaled(sum.coat, lobe, color);
     return sum;
 }
@@ -107,33 +119,28 @@ SHARED_FN FV below_sheen(ShadingPoint p, FV cosine) {
     return fma(-p.sheen_most, taken, fv(1.0f));
 }
 
-// Light of intensity's weight * falloff.
-SHARED_FN LightSum add_sheen(LightSum sum, ShadingPoint p, HalfVector half_way, FV n_dot_l,
-                             FV weight, float4 color) {
-    FV3 nxh = cross3(p.normal, half_way.h);
+SHARED_FN LightSum add_sheen(LightSum sum, ShadingPoint p, HalfVector half_way, IncidentLight from,
+                             float4 color) {
     FV n_dot_h = dot3(p.normal, half_way.h);
-    FV lobe = sheen_light(p.sheen, dot3(nxh, nxh), n_dot_h * n_dot_h, half_way.hh, n_dot_l);
-    sum.sheen = add_scaled(sum.sheen, weight * lobe, color);
+    FV lobe = sheen_light(p.sheen, half_way.sin2, n_dot_h * n_dot_h, half_way.hh, from.n_dot_l);
+    sum.sheen = add_scaled(sum.sheen, from.weight * lobe, color);
     return sum;
 }
 #endif
 
-// Light of the direction `v` * `inv_length`: intensity's weight * falloff, and that times n.l.
-SHARED_FN LightSum add_lobes(LightSum sum, ShadingPoint p, FV3 v, FV inv_length, FV n_dot_l,
-                             FV weight, FV lit, float4 color) {
-    HalfVector half_way = half_vector(p.to_eye, v, inv_length);
+SHARED_FN LightSum add_lobes(LightSum sum, ShadingPoint p, IncidentLight from, float4 color) {
+    HalfVector half_way = half_vector(p.normal, p.to_eye, from.v, from.inv_length);
     // Where no lane has the lobe, it would add nothing: lobes cost what surfaces have of them.
 #if HAS_COAT
-    if (lane_any(p.coat_share > fv(0.0f)))
-        sum = add_coat(sum, p, half_way, v, inv_length, weight, color);
+    if (lane_any(p.coat_share > fv(0.0f))) sum = add_coat(sum, p, half_way, from, color);
 #endif
 #if HAS_SHEEN_LOBE
     if (lane_any(p.sheen_most > fv(0.0f))) {
-        sum = add_sheen(sum, p, half_way, n_dot_l, weight, color);
-        lit = lit * below_sheen(p, n_dot_l);
+        sum = add_sheen(sum, p, half_way, from, color);
+        from.lit = from.lit * below_sheen(p, from.n_dot_l);
     }
 #endif
-    return add_pbr(sum, p, half_way, n_dot_l, lit, color);
+    return add_pbr(sum, p, half_way, from, color);
 }
 #endif
 
@@ -203,7 +210,13 @@ SHARED_FN LightSum evaluate(LightSum sum, ShadingPoint p, ShadeLight light) {
     FV lit = lane_divide(window * n_dot_v, e2 * distance);
 #endif
 #if SHADING == SHADING_PBR
-    return add_lobes(sum, p, v, inv_d, n_dot_l, weight, lit, light.color_scale);
+    IncidentLight from;
+    from.v = v;
+    from.inv_length = inv_d;
+    from.n_dot_l = n_dot_l;
+    from.weight = weight;
+    from.lit = lit;
+    return add_lobes(sum, p, from, light.color_scale);
 #elif SHADING == SHADING_BLINN_PHONG
 #if FAST_RSQRT
     FV distance = e2 * inv_d;
@@ -219,7 +232,11 @@ SHARED_FN LightSum evaluate_directional(LightSum sum, ShadingPoint p, Directiona
     FV3 to_light = fv3(fv(light.to_light.x), fv(light.to_light.y), fv(light.to_light.z));
     FV n_dot_l = max(dot3(p.normal, to_light), fv(0.0f));
 #if SHADING == SHADING_PBR
-    return add_lobes(sum, p, to_light, fv(1.0f), n_dot_l, fv(1.0f), n_dot_l, light.color);
+    IncidentLight from;
+    from.v = to_light;
+    from.inv_length = from.weight = fv(1.0f);
+    from.n_dot_l = from.lit = n_dot_l;
+    return add_lobes(sum, p, from, light.color);
 #elif SHADING == SHADING_BLINN_PHONG
     return add_blinn_phong(sum, p, to_light, fv(1.0f), n_dot_l, light.color);
 #else

@@ -136,7 +136,7 @@ namespace kilolux {
     /* KHR_materials_clearcoat */                                                                 \
     SCALAR(HAS_CLEARCOAT, coat, SURFACE_COAT, PLANE_COAT_F, 0.0f)                                 \
     SCALAR(HAS_CLEARCOAT, coat_roughness, SURFACE_COAT_ROUGHNESS, PLANE_COAT_ROUGHNESS, 1.0f)     \
-    VECTOR(HAS_CLEARCOAT, coat_normal, SURFACE_COAT_NORMAL, PLANE_COAT_NORMAL_X, 0.0f)            \
+    VECTOR(HAS_COAT_NORMAL, coat_normal, SURFACE_COAT_NORMAL, PLANE_COAT_NORMAL_X, 0.0f)          \
     /* KHR_materials_sheen */                                                                     \
     VECTOR(HAS_SHEEN, sheen, SURFACE_SHEEN, PLANE_SHEEN_R, 0.0f)                                  \
     SCALAR(HAS_SHEEN, sheen_roughness, SURFACE_SHEEN_ROUGHNESS, PLANE_SHEEN_ROUGHNESS, 1.0f)      \

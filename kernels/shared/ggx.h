@@ -81,14 +81,22 @@ SHARED_FN GgxLobe stretched_lobe(GgxLobe lobe, FV3 to_eye, FV3 tangent, FV stren
 }
 #endif
 
-// The half vector h, not normalised.
+// The half vector h, not normalised, about a normal n.
 SHARED_PLAIN_STRUCT(HalfVector) {
     FV3 h;
-    FV hh;  // its length squared
+    FV hh;    // its length squared
+    FV3 nxh;  // n x h
+    FV sin2;  // |n x h|^2
 };
 
+SHARED_FN HalfVector about_normal(HalfVector half_way, FV3 normal) {
+    half_way.nxh = cross3(normal, half_way.h);
+    half_way.sin2 = dot3(half_way.nxh, half_way.nxh);
+    return half_way;
+}
+
 // Of light from the unit direction `v` * `inv_length`.
-SHARED_FN HalfVector half_vector(FV3 to_eye, FV3 v, FV inv_length) {
+SHARED_FN HalfVector half_vector(FV3 normal, FV3 to_eye, FV3 v, FV inv_length) {
     HalfVector half_way;
     FV3 h = fv3(fma(v.x, inv_length, to_eye.x), fma(v.y, inv_length, to_eye.y),
                 fma(v.z, inv_length, to_eye.z));
@@ -96,19 +104,18 @@ SHARED_FN HalfVector half_vector(FV3 to_eye, FV3 v, FV inv_length) {
     // 1e-12: light from straight behind the view has no half vector; the sum is only rounding (1e-7
     // long).
     half_way.hh = max(dot3(h, h), fv(1e-12f));
-    return half_way;
+    return about_normal(half_way, normal);
 }
 
 // `lit` * D * V without its constant 1 / (2 pi), which reflected_radiance() multiplies in.
-SHARED_FN FV ggx_light(GgxLobe lobe, FV3 normal, HalfVector half_way, FV n_dot_l, FV lit) {
+SHARED_FN FV ggx_light(GgxLobe lobe, HalfVector half_way, FV n_dot_l, FV lit) {
     // Lagrange's identity |n x h|^2 = h^2 - (n.h)^2 keeps narrow lobes (Filament, 4.4.1). Both
     // sides of D's fraction are multiplied by h^2, which saves normalising h, and divided by alpha,
     // so that the peak of a mirror keeps the size it has in the end.
     FV hh = half_way.hh;
-    FV3 nxh = cross3(normal, half_way.h);
-    FV ggx = fma(dot3(nxh, nxh), lobe.slope, lobe.alpha * hh);
+    FV ggx = fma(half_way.sin2, lobe.slope, lobe.alpha * hh);
 #if HAS_ANISOTROPY
-    FV b_dot_h = dot3(lobe.tangent, nxh);  // up to its sign
+    FV b_dot_h = dot3(lobe.tangent, half_way.nxh);  // up to its sign
     ggx = fma(b_dot_h * b_dot_h, lobe.rise, ggx);
     FV t_dot_l = dot3(lobe.tangent, half_way.h) - lobe.t_dot_v;
     FV smith_l = stretched_smith(lobe, n_dot_l, t_dot_l);

@@ -126,11 +126,11 @@ SHARED_FN Surface unpack_anisotropy(UV code, Surface s) {
 
 // The optional planes of four bytes that all layouts but `full` may have, beside PLANE_MATERIAL:
 // whether the scene's G-buffers have it, its number, and its functions.
-#define PACKED_PLANES(PLANE)                                                      \
-    PLANE(HAS_SPECULAR, PLANE_SPECULAR, pack_specular, unpack_specular)           \
-    PLANE(HAS_CLEARCOAT, PLANE_COAT, pack_coat, unpack_coat)                      \
-    PLANE(HAS_CLEARCOAT, PLANE_COAT_NORMAL, pack_coat_normal, unpack_coat_normal) \
-    PLANE(HAS_SHEEN, PLANE_SHEEN, pack_sheen, unpack_sheen)                       \
-    PLANE(HAS_ANISOTROPY, PLANE_ANISOTROPY, pack_anisotropy, unpack_anisotropy)   \
+#define PACKED_PLANES(PLANE)                                                        \
+    PLANE(HAS_SPECULAR, PLANE_SPECULAR, pack_specular, unpack_specular)             \
+    PLANE(HAS_CLEARCOAT, PLANE_COAT, pack_coat, unpack_coat)                        \
+    PLANE(HAS_COAT_NORMAL, PLANE_COAT_NORMAL, pack_coat_normal, unpack_coat_normal) \
+    PLANE(HAS_SHEEN, PLANE_SHEEN, pack_sheen, unpack_sheen)                         \
+    PLANE(HAS_ANISOTROPY, PLANE_ANISOTROPY, pack_anisotropy, unpack_anisotropy)     \
     PLANE(HAS_TRANSMISSION, PLANE_TRANSMISSION, pack_transmission, unpack_transmission)
 #endif

@@ -7,8 +7,7 @@
 //   encode_srgb(to, v)                          sRGB code of linear light, correctly rounded
 //   store_plane_float, _uint, _byte, _half(to, plane, v), store_plane_row(to, plane, x, y, z, w)
 //
-// GBUFFER, HAS_MATERIAL, HAS_OCCLUSION, HAS_SPECULAR, HAS_CLEARCOAT, HAS_SHEEN and HAS_ANISOTROPY
-// say which planes there are.
+// GBUFFER and the first column of SURFACE_VALUES say which planes there are.
 #ifndef KILOLUX_SHARED_STORE_H
 #define KILOLUX_SHARED_STORE_H
 #include "kernels/shared/gbuffer.h"

@@ -2,10 +2,10 @@
 // A point on a surface, and the values that shading with any light needs of it.
 //
 // Compile-time switches: SHADING, HAS_METALLIC, HAS_SPECULAR (KHR_materials_ior and
-// KHR_materials_specular), HAS_CLEARCOAT (KHR_materials_clearcoat), HAS_SHEEN
-// (KHR_materials_sheen), HAS_ANISOTROPY (ggx.h), HAS_TRANSMISSION (KHR_materials_transmission),
-// HAS_UNLIT. Features that the scene lacks are not compiled in; compiling them in changes no bit of
-// the radiance.
+// KHR_materials_specular), HAS_CLEARCOAT (KHR_materials_clearcoat), HAS_COAT_NORMAL,
+// HAS_SHEEN (KHR_materials_sheen), HAS_ANISOTROPY (ggx.h), HAS_TRANSMISSION
+// (KHR_materials_transmission), HAS_UNLIT. Features that the scene lacks are not compiled in;
+// compiling them in changes no bit of the radiance.
 #ifndef KILOLUX_SHARED_SURFACE_H
 #define KILOLUX_SHARED_SURFACE_H
 #include "kernels/shared/evaluate_modes.h"
@@ -31,6 +31,10 @@
 #endif
 #ifndef HAS_CLEARCOAT
 #define HAS_CLEARCOAT 0
+#endif
+// Whether coats may have other normals than the surfaces below them.
+#ifndef HAS_COAT_NORMAL
+#define HAS_COAT_NORMAL HAS_CLEARCOAT
 #endif
 #ifndef HAS_SHEEN
 #define HAS_SHEEN 0

@@ -215,7 +215,6 @@ SHARED_FN Surface with_specular(IN(Textures) textures, IN(Fragment) f, Surface s
 // KHR_materials_clearcoat. Without a map of its own the coat is as smooth as the vertices' normals.
 SHARED_FN Surface with_clearcoat(IN(Textures) textures, IN(Fragment) f, Surface s) {
     MaterialRef material = AT(textures).material;
-    FV3 n = AT(f).normal;
     s.coat = fv(MATERIAL(material).row.clearcoat.x);
     s.coat_roughness = fv(MATERIAL(material).row.clearcoat.y);
 #if HAS_USE(USE_CLEARCOAT)
@@ -224,10 +223,15 @@ SHARED_FN Surface with_clearcoat(IN(Textures) textures, IN(Fragment) f, Surface 
 #if HAS_USE(USE_CLEARCOAT_ROUGHNESS)
     s.coat_roughness *= sample_use(textures, f, USE_CLEARCOAT_ROUGHNESS).y;
 #endif
+#if HAS_COAT_NORMAL
+    FV3 n = AT(f).normal;
 #if HAS_USE(USE_CLEARCOAT_NORMAL)
     n = mapped_normal(textures, f, USE_CLEARCOAT_NORMAL, MATERIAL(material).row.clearcoat.z);
 #endif
     s.coat_normal = facing_normal(material, f, n);
+#else
+    s.coat_normal = s.normal;
+#endif
     return s;
 }
 #endif

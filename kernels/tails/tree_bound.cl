@@ -42,7 +42,7 @@ static inline NodeError node_error(ShadingPoint p, TreeNode node, float4 at) {
     float near = distance * (2.0f - TREE_ROUNDING) - node.radius * TREE_ROUNDING;
     float along = p.normal.x * w.x + p.normal.y * w.y + p.normal.z * w.z;
     float highest = along;
-#if HAS_COAT
+#if HAS_COAT && HAS_COAT_NORMAL
     highest = max(along, p.coat_normal.x * w.x + p.coat_normal.y * w.y + p.coat_normal.z * w.z);
 #endif
     float slack = node.radius * TREE_ROUNDING + 1e-5f * distance;

@@ -26,7 +26,7 @@ static inline float3 normal_at(GBuffer g, Pixels pixel) {
 // The least cosine to `axis` of the pixel's normals.
 static inline float cosine_at(GBuffer g, Pixels pixel, float3 axis) {
     float cosine = dot(axis, normal_at(g, pixel));
-#if HAS_COAT
+#if HAS_COAT && HAS_COAT_NORMAL
     Surface s = load_surface(g, pixel, 1.0f);
     float3 coat = (float3)(s.coat_normal.x, s.coat_normal.y, s.coat_normal.z);
     if (s.coat > 0.0f) cosine = min(cosine, dot(axis, coat));

@@ -208,8 +208,9 @@ TEST(FeatureCosts, OfNoiseAreSeldomMeasurable) {
 
 TEST(FeatureCosts, NameEveryLeftOutFeature) {
     const std::map<std::string, int> bytes_of = {
-        {"emissive", 4},  {"metallic", 4}, {"specular", 4},   {"occlusion", 1},
-        {"clearcoat", 8}, {"sheen", 4},    {"anisotropy", 4}, {"transmission", 4}};
+        {"emissive", 4},  {"metallic", 4},   {"specular", 4},
+        {"occlusion", 1}, {"clearcoat", 4},  {"coat-normals", 4},
+        {"sheen", 4},     {"anisotropy", 4}, {"transmission", 4}};
     const Scene scene = make_generated_scene("plain");
     RenderSettings settings = small_frame();
     settings.shading = Shading::lambert;

@@ -46,8 +46,8 @@ KernelFeatures features_of(const Variant& v) {
     features.shading = v.shading;
     features.gbuffer = v.layout;
     features.material = features.metallic = features.occlusion = true;
-    features.specular = features.clearcoat = features.sheen = features.unlit = true;
-    features.anisotropy = true;
+    features.specular = features.sheen = features.anisotropy = features.unlit = true;
+    features.clearcoat = features.coat_normals = true;
     features.spot_lights = features.directional_lights = true;
     features.light_index_bits = v.light_index_bits;
     return features;

@@ -62,7 +62,8 @@ TEST_F(GBufferLayoutsTest, ReadsAreThePlanesOfTheLayout) {
         for (const bool optional : {false, true}) {
             GBufferNeeds needs = make_needs(layout);
             needs.material = needs.occlusion = needs.specular = needs.unlit = optional;
-            needs.clearcoat = needs.sheen = needs.anisotropy = optional && layout != GBUFFER_FULL;
+            needs.clearcoat = needs.coat_normals = optional && layout != GBUFFER_FULL;
+            needs.sheen = needs.anisotropy = optional && layout != GBUFFER_FULL;
             const GBufferLayout planes = make_gbuffer_layout(needs, 16, 1);
             const TargetPlan plan = plan_targets(needs);
             std::vector<uint> expected;
@@ -78,7 +79,8 @@ TEST_F(GBufferLayoutsTest, ReadsAreThePlanesOfTheLayout) {
 
 TEST_F(GBufferLayoutsTest, MorePlanesThanOpenGlDrawsToAreRefused) {
     GBufferNeeds needs = make_needs(GBUFFER_FULL);
-    needs.material = needs.occlusion = needs.specular = needs.clearcoat = true;
+    needs.material = needs.occlusion = needs.specular = true;
+    needs.clearcoat = needs.coat_normals = true;
     const std::string message = message_of<UsageError>([&] { plan_targets(needs); });
     EXPECT_EQ(message,
               "--geometry planes: 25 planes of --gbuffer full for this scene, OpenGL draws to 24 "

@@ -25,6 +25,7 @@ constexpr Switch kSwitches[] = {
     {"occlusion", "HAS_OCCLUSION=0", "HAS_OCCLUSION=1"},
     {"specular", "HAS_SPECULAR=0", "HAS_SPECULAR=1"},
     {"clearcoat", "HAS_CLEARCOAT=0", "HAS_CLEARCOAT=1"},
+    {"coat-normals", "HAS_COAT_NORMAL=0", "HAS_COAT_NORMAL=1"},
     {"sheen", "HAS_SHEEN=0", "HAS_SHEEN=1"},
     {"anisotropy", "HAS_ANISOTROPY=0", "HAS_ANISOTROPY=1"},
     {"unlit", "HAS_UNLIT=0", "HAS_UNLIT=1"},
@@ -52,14 +53,16 @@ Scene scene_with(const std::string& feature) {
     if (feature == "metallic") material.metallic = 0.5f;
     if (feature == "emissive") material.emissive = glm::vec3(0.5f);
     if (feature == "specular") material.ior = 1.33f;
-    if (feature == "clearcoat") material.clearcoat = 0.5f;
+    if (feature == "clearcoat" || feature == "coat-normals") material.clearcoat = 0.5f;
     if (feature == "sheen") material.sheen_color.y = 0.5f;
     if (feature == "anisotropy") material.anisotropy_strength = 0.5f;
     if (feature == "unlit") material.unlit = true;
-    if (feature == "occlusion") {
+    if (feature == "occlusion" || feature == "coat-normals") {
         scene.images.push_back({"white", 1, 1, {255, 255, 255, 255}});
         scene.textures.push_back({static_cast<int>(scene.images.size()) - 1, {}});
-        material.occlusion_texture.texture = static_cast<int>(scene.textures.size()) - 1;
+        TextureUse& map =
+            feature == "occlusion" ? material.occlusion_texture : material.clearcoat_normal_texture;
+        map.texture = static_cast<int>(scene.textures.size()) - 1;
     }
     return scene;
 }
@@ -82,10 +85,12 @@ TEST(ScenePlan, KernelsHoldAFeatureWhereTheSceneNeedsItAndNowhereElse) {
         EXPECT_TRUE(has(plan.features, s.feature)) << s.feature;
         EXPECT_FALSE(has(plan.left_out, s.feature)) << s.feature;
         for (const Switch& other : kSwitches) {
-            // Metal and what an unlit surface emits are kept in the plane of emission.
-            const bool shares =
-                std::string(other.feature) == "emissive" &&
-                (std::string(s.feature) == "metallic" || std::string(s.feature) == "unlit");
+            // Metal and what an unlit surface emits are kept in the plane of emission; only
+            // coats have normals of coats.
+            const std::string feature = s.feature, with = other.feature;
+            const bool shares = with == "emissive"
+                                    ? feature == "metallic" || feature == "unlit"
+                                    : with == "clearcoat" && feature == "coat-normals";
             if (&other == &s || shares) continue;
             EXPECT_NE(options_of(plan).find(other.without), std::string::npos)
                 << s.feature << " brings " << other.feature;

@@ -35,6 +35,12 @@ float largest_emission(const Material& m) {
     return std::max(emissive, unlit);
 }
 
+bool has_coat(const Material& m) { return !m.unlit && m.clearcoat > 0.0f; }
+
+bool has_normal_map(const Material& m) {
+    return m.normal_texture.present() || m.clearcoat_normal_texture.present();
+}
+
 bool is_forced(const RenderSettings& settings, std::string_view name) {
     return std::ranges::count(settings.force_features, name) > 0;
 }
@@ -55,17 +61,16 @@ constexpr MaterialFeature kMaterialFeatures[] = {
     {&F::occlusion, [](const Material& m) { return m.occlusion_texture.present(); }},
     {&F::specular, [](const Material& m) { return !m.unlit && has_own_reflectance(m); },
      SHADING_BLINN_PHONG},
-    {&F::clearcoat, [](const Material& m) { return !m.unlit && m.clearcoat > 0.0f; }, SHADING_PBR},
+    {&F::clearcoat, has_coat, SHADING_PBR},
+    {&F::coat_normals, [](const Material& m) { return has_coat(m) && has_normal_map(m); },
+     SHADING_PBR},
     {&F::sheen, [](const Material& m) { return !m.unlit && m.sheen_color != glm::vec3(0.0f); },
      SHADING_PBR},
     {&F::anisotropy, [](const Material& m) { return !m.unlit && m.anisotropy_strength > 0.0f; },
      SHADING_PBR},
     {&F::transmission, [](const Material& m) { return m.transmission > 0.0f; }},
     {&F::unlit_materials, [](const Material& m) { return m.unlit; }},
-    {&F::normal_maps,
-     [](const Material& m) {
-         return m.normal_texture.present() || m.clearcoat_normal_texture.present();
-     }},
+    {&F::normal_maps, has_normal_map},
     {&F::alpha_mask, [](const Material& m) { return m.alpha_mode == AlphaMode::mask; }},
     {&F::alpha_blend, [](const Material& m) { return is_blended(m); }},
 };

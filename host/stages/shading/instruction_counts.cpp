@@ -19,15 +19,16 @@ constexpr InstructionCounts kHalfVector = {7.0};
 // logarithm 12, product 1, exponential 13.
 constexpr InstructionCounts kPowOfCos2 = {36.0, 0.0, 0.0, 1.0};
 
-// n x h 6, its square 3, GGX 2; Smith 2 and a square root 1, both 2; h^4 1, lobe 3 and a
-// division 1.
-constexpr InstructionCounts kGgx = {21.0, 0.0, 1.0, 1.0};
+// n x h 6, its square 3.
+constexpr InstructionCounts kHalfVectorSine = {9.0};
+// GGX 2; Smith 2 and a square root 1, both 2; h^4 1, lobe 3 and a division 1.
+constexpr InstructionCounts kGgx = {12.0, 0.0, 1.0, 1.0};
 
 InstructionCounts sheen_instructions() {
-    // n x h 6, its square 3, n.h 3 and its square 1; lambda: the cosine or its complement 4, the
-    // other 1, l 4 with a division, its mirror 2, exponential 15; sum 1, a division 1, none from
-    // behind 2, weight 1; E: 4, exponential 13; the rest 2 and the base's weight 1.
-    return InstructionCounts{64.0, 0.0, 0.0, 2.0} + 2.0 * kPowOfCos2;
+    // n.h 3 and its square 1; lambda: the cosine or its complement 4, the other 1, l 4 with a
+    // division, its mirror 2, exponential 15; sum 1, a division 1, none from behind 2, weight 1;
+    // E: 4, exponential 13; the rest 2 and the base's weight 1.
+    return InstructionCounts{55.0, 0.0, 0.0, 2.0} + 2.0 * kPowOfCos2;
 }
 
 InstructionCounts blinn_phong_instructions() {
@@ -45,9 +46,12 @@ InstructionCounts pbr_instructions(const KernelFeatures& kernels) {
     const bool varies = kernels.metallic || kernels.specular;
     const InstructionCounts sums =
         2.0 * kAddScaled + InstructionCounts{(varies ? 7.0 : 3.0) + (kernels.specular ? 2.0 : 0.0)};
-    InstructionCounts work = kHalfVector + lobe + sums;
-    // n.l 3 + 1 + 1, falloff 1; the lobe without Schlick's 10 but with its own weight.
-    if (kernels.clearcoat) work = work + InstructionCounts{6.0} + ggx + kAddScaled;
+    InstructionCounts work = kHalfVector + kHalfVectorSine + lobe + sums;
+    // The lobe without Schlick's 10 but with its own weight.
+    if (kernels.clearcoat) work = work + ggx + kAddScaled;
+    // n.l 3 + 1 + 1, falloff 1.
+    if (kernels.clearcoat && kernels.coat_normals)
+        work = work + InstructionCounts{6.0} + kHalfVectorSine;
     if (kernels.sheen) work = work + sheen_instructions() + kAddScaled;
     return work;
 }

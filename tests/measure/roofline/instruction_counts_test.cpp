@@ -10,6 +10,7 @@
 #define HAS_METALLIC 0
 #define HAS_SPECULAR 0
 #define HAS_CLEARCOAT 0
+#define HAS_COAT_NORMAL 0
 #define HAS_SHEEN 0
 #define HAS_SPOT_LIGHTS 0
 #define SHADING SHADING_LAMBERT
@@ -59,6 +60,10 @@
 #define HAS_CLEARCOAT 1
 #define COUNTED pbr_specular_coat_spots
 #include "tests/measure/roofline/counted_evaluate.h"
+#undef HAS_COAT_NORMAL
+#define HAS_COAT_NORMAL 1
+#define COUNTED pbr_specular_coat_normal_spots
+#include "tests/measure/roofline/counted_evaluate.h"
 #undef HAS_SHEEN
 #define HAS_SHEEN 1
 #define COUNTED pbr_every_lobe_spots
@@ -81,7 +86,7 @@ struct Case {
     struct {
         int shading;
         bool metallic = false, specular = false, spots = false, clearcoat = false, sheen = false;
-        bool anisotropy = false;
+        bool coat_normals = false, anisotropy = false;
     } of;
 
     kilolux::KernelFeatures features() const {
@@ -90,6 +95,7 @@ struct Case {
         features.metallic = of.metallic;
         features.specular = of.specular;
         features.clearcoat = of.clearcoat;
+        features.coat_normals = of.coat_normals;
         features.sheen = of.sheen;
         features.anisotropy = of.anisotropy;
         features.spot_lights = of.spots;
@@ -114,10 +120,12 @@ const Case kCases[] = {
     CASE(pbr_specular_spots, .shading = SHADING_PBR, .specular = true, .spots = true),
     CASE(pbr_specular_coat_spots, .shading = SHADING_PBR, .specular = true, .spots = true,
          .clearcoat = true),
+    CASE(pbr_specular_coat_normal_spots, .shading = SHADING_PBR, .specular = true, .spots = true,
+         .clearcoat = true, .coat_normals = true),
     CASE(pbr_every_lobe_spots, .shading = SHADING_PBR, .specular = true, .spots = true,
-         .clearcoat = true, .sheen = true),
+         .clearcoat = true, .sheen = true, .coat_normals = true),
     CASE(pbr_every_stretched_lobe_spots, .shading = SHADING_PBR, .specular = true, .spots = true,
-         .clearcoat = true, .sheen = true, .anisotropy = true),
+         .clearcoat = true, .sheen = true, .coat_normals = true, .anisotropy = true),
     CASE(pbr_metallic_specular, .shading = SHADING_PBR, .metallic = true, .specular = true),
 };
 #undef CASE

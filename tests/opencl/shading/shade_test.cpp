@@ -73,7 +73,7 @@ KernelFeatures full_features(int shading) {
     KernelFeatures features;
     features.shading = shading;
     features.material = features.metallic = features.occlusion = features.specular = true;
-    features.clearcoat = features.sheen = features.anisotropy = true;
+    features.clearcoat = features.coat_normals = features.sheen = features.anisotropy = true;
     features.spot_lights = features.directional_lights = true;
     return features;
 }
