@@ -187,7 +187,9 @@ static inline FV3 reflected(ReflectionMaps maps, View view, Surface s, FV3 irrad
 #if HAS_COAT
     FV3 of_coat = table_at(maps, p.coat.n_dot_v, s.coat_roughness);
     FV3 coat = lobe_light(maps, view, s.coat_normal, p.to_eye, s.coat_roughness);
-    out = coated(p, out, scale3(coat, of_coat.x + of_coat.y));
+    FV share = p.coat_share * (of_coat.x + of_coat.y);
+    out = fv3(fma(out.x, p.below_coat, coat.x * share), fma(out.y, p.below_coat, coat.y * share),
+              fma(out.z, p.below_coat, coat.z * share));
 #endif
     return out;
 }

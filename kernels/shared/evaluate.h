@@ -74,8 +74,18 @@ SHARED_PLAIN_STRUCT(IncidentLight) {
     FV lit;         // that times n.l
 };
 
+// `lobe` times its reflectance, plus what the coat reflects.
+SHARED_FN FV specular_weight(FV lobe, FV reflectance, FV coat) {
+#if HAS_COAT
+    return fma(lobe, reflectance, coat);
+#else
+    return lobe * reflectance;
+#endif
+}
+
+// Adds the light of the surface below its coat, and `coat`, the weight of what that reflects.
 SHARED_FN LightSum add_pbr(LightSum sum, ShadingPoint p, HalfVector half_way, IncidentLight from,
-                           float4 color) {
+                           FV coat, float4 color) {
     FV lit = from.lit;
     FV lobe = ggx_light(p.lobe, half_way, from.n_dot_l, lit);
     FV schlick = max(fma(-dot3(p.to_eye, half_way.h), lane_rsqrt(half_way.hh), fv(1.0f)), fv(0.0f));
@@ -89,26 +99,28 @@ SHARED_FN LightSum add_pbr(LightSum sum, ShadingPoint p, HalfVector half_way, In
     sum.diffuse = add_scaled(sum.diffuse, lit * g, color);
 #endif
 #if F0_VARIES
-    sum.specular = fv3(fma(lobe * fma(g, p.f0.x, f), fv(color.x), sum.specular.x),
-                       fma(lobe * fma(g, p.f0.y, f), fv(color.y), sum.specular.y),
-                       fma(lobe * fma(g, p.f0.z, f), fv(color.z), sum.specular.z));
+    FV3 weight = fv3(specular_weight(lobe, fma(g, p.f0.x, f), coat),
+                     specular_weight(lobe, fma(g, p.f0.y, f), coat),
+                     specular_weight(lobe, fma(g, p.f0.z, f), coat));
+    sum.specular =
+        fv3(fma(weight.x, fv(color.x), sum.specular.x), fma(weight.y, fv(color.y), sum.specular.y),
+            fma(weight.z, fv(color.z), sum.specular.z));
 #else
-    sum.specular = add_scaled(sum.specular, lobe * fma(g, fv(DIELECTRIC_F0), f), color);
+    FV weight = specular_weight(lobe, fma(g, fv(DIELECTRIC_F0), f), coat);
+    sum.specular = add_scaled(sum.specular, weight, color);
 #endif
     return sum;
 }
 
 #if HAS_COAT
-SHARED_FN LightSum add_coat(LightSum sum, ShadingPoint p, HalfVector half_way, IncidentLight from,
-                            float4 color) {
+// The weight of light that the coat reflects: exactly 0 without a coat.
+SHARED_FN FV coat_light(ShadingPoint p, HalfVector half_way, IncidentLight from) {
 #if HAS_COAT_NORMAL
     from.n_dot_l = max(dot3(p.coat_normal, from.v), fv(0.0f)) * from.inv_length;
     from.lit = from.weight * from.n_dot_l;
     half_way = about_normal(half_way, p.coat_normal);
 #endif
-    FV lobe = ggx_light(p.coat, half_way, from.n_dot_l, from.lit);
-    sum.coat = add_scaled(sum.coat, lobe, color);
-    return sum;
+    return ggx_light(p.coat, half_way, from.n_dot_l, from.lit * p.coat_share);
 }
 #endif
 
@@ -130,9 +142,13 @@ SHARED_FN LightSum add_sheen(LightSum sum, ShadingPoint p, HalfVector half_way, 
 
 SHARED_FN LightSum add_lobes(LightSum sum, ShadingPoint p, IncidentLight from, float4 color) {
     HalfVector half_way = half_vector(p.normal, p.to_eye, from.v, from.inv_length);
+    FV coat = fv(0.0f);
     // Where no lane has the lobe, it would add nothing: lobes cost what surfaces have of them.
 #if HAS_COAT
-    if (lane_any(p.coat_share > fv(0.0f))) sum = add_coat(sum, p, half_way, from, color);
+    if (lane_any(p.coat_share > fv(0.0f))) {
+        coat = coat_light(p, half_way, from);
+        from.lit = from.lit * p.below_coat;
+    }
 #endif
 #if HAS_SHEEN_LOBE
     if (lane_any(p.sheen_most > fv(0.0f))) {
@@ -140,7 +156,7 @@ SHARED_FN LightSum add_lobes(LightSum sum, ShadingPoint p, IncidentLight from, f
         from.lit = from.lit * below_sheen(p, from.n_dot_l);
     }
 #endif
-    return add_pbr(sum, p, half_way, from, color);
+    return add_pbr(sum, p, half_way, from, coat, color);
 }
 #endif
 
@@ -245,18 +261,6 @@ SHARED_FN LightSum evaluate_directional(LightSum sum, ShadingPoint p, Directiona
 #endif
 }
 
-#if HAS_COAT
-// Radiance of the coat that reflects `light`, over that of the surface below it.
-SHARED_FN FV3 coated(ShadingPoint p, FV3 below, FV3 light) {
-    FV kept = fv(1.0f) - p.coat_share;
-    // Without a coat its lobe counts for nothing, also where it overflows.
-    MASK has_coat = p.coat_share > fv(0.0f);
-    return fv3(fma(below.x, kept, lane_select(has_coat, light.x * p.coat_share, fv(0.0f))),
-               fma(below.y, kept, lane_select(has_coat, light.y * p.coat_share, fv(0.0f))),
-               fma(below.z, kept, lane_select(has_coat, light.z * p.coat_share, fv(0.0f))));
-}
-#endif
-
 #if HAS_SHEEN_LOBE
 // Radiance of sheen that reflects `light`, beside that of the surface below it.
 SHARED_FN FV3 with_sheen_light(Surface s, ShadingPoint p, FV3 below, FV3 light) {
@@ -303,10 +307,11 @@ SHARED_FN FV3 reflected_radiance(Surface s, ShadingPoint p, LightSum sum) {
                        fma(base.z * k * (fv(1.0f) - f0.z), sum.diffuse.z, lobe * sum.specular.z));
 #endif
 #if HAS_SHEEN_LOBE
-    out_radiance = with_sheen_light(s, p, out_radiance, scale3(sum.sheen, p.sheen.scale));
-#endif
+    FV sheen = p.sheen.scale;
 #if HAS_COAT
-    out_radiance = coated(p, out_radiance, scale3(sum.coat, lobe));
+    sheen = sheen * p.below_coat;
+#endif
+    out_radiance = with_sheen_light(s, p, out_radiance, scale3(sum.sheen, sheen));
 #endif
 #if HAS_UNLIT
     MASK lit = is_lit(s);
@@ -340,20 +345,24 @@ SHARED_FN FV turned_cosine(FV cosine, FV3 normal, FV3 other) {
 
 // Adds the largest sums that the light can cause.
 SHARED_FN LightSum add_bounds(LightSum sum, Surface s, ShadingPoint p, LightBound most) {
+#if HAS_COAT
+    FV coat_peak = ggx_bound(p.coat, turned_cosine(most.cosine, p.normal, p.coat_normal));
+    sum.specular = add3(sum.specular, scale3(most.all, p.coat_share * coat_peak));
+    most.diffuse = scale3(most.diffuse, p.below_coat);
+#endif
     sum.diffuse = add3(sum.diffuse, most.diffuse);
 #if SHADING == SHADING_PBR
     FV one = fv(1.0f);
     FV peak = ggx_bound(p.lobe, most.cosine);
+#if HAS_COAT
+    peak = peak * p.below_coat;
+#endif
     FV3 f0 = mixed_f0(s, dielectric_f0(s));
     FV3 f = fv3(min(f0.x + most.fresnel, one), min(f0.y + most.fresnel, one),
                 min(f0.z + most.fresnel, one));
     sum.specular = fv3(fma(f.x, peak * most.all.x, sum.specular.x),
                        fma(f.y, peak * most.all.y, sum.specular.y),
                        fma(f.z, peak * most.all.z, sum.specular.z));
-#if HAS_COAT
-    FV coat_peak = ggx_bound(p.coat, turned_cosine(most.cosine, p.normal, p.coat_normal));
-    sum.coat = add3(sum.coat, scale3(most.all, coat_peak));
-#endif
 #if HAS_SHEEN_LOBE
     sum.sheen = add3(sum.sheen, scale3(most.all, sheen_bound(p.sheen, p.lobe.n_dot_v)));
 #endif
@@ -394,7 +403,7 @@ SHARED_FN FV3 transmitted_share(Surface s, ShadingPoint p) {
     through = through * below_sheen(p, p.lobe.n_dot_v);
 #endif
 #if HAS_COAT
-    through = through * (fv(1.0f) - p.coat_share);
+    through = through * p.below_coat;
 #endif
 #endif
     return scale3(share, through);
@@ -426,9 +435,8 @@ SHARED_FN FV3 finish_shading(Surface s, ShadingPoint p, LightSum sum, float ambi
                               fv3(p.sheen.albedo, p.sheen.albedo, p.sheen.albedo));
 #endif
 #if HAS_COAT
-    FV kept = fv(1.0f) - p.coat_share;
-    a = a * kept;
-    emissive = scale3(emissive, kept);
+    a = a * p.below_coat;
+    emissive = scale3(emissive, p.below_coat);
 #endif
     return fv3(fma(a, albedo.x, lit.x) + emissive.x, fma(a, albedo.y, lit.y) + emissive.y,
                fma(a, albedo.z, lit.z) + emissive.z);

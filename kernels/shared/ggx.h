@@ -85,6 +85,7 @@ SHARED_FN GgxLobe stretched_lobe(GgxLobe lobe, FV3 to_eye, FV3 tangent, FV stren
 SHARED_PLAIN_STRUCT(HalfVector) {
     FV3 h;
     FV hh;    // its length squared
+    FV h4;    // that squared
     FV3 nxh;  // n x h
     FV sin2;  // |n x h|^2
 };
@@ -104,6 +105,7 @@ SHARED_FN HalfVector half_vector(FV3 normal, FV3 to_eye, FV3 v, FV inv_length) {
     // 1e-12: light from straight behind the view has no half vector; the sum is only rounding (1e-7
     // long).
     half_way.hh = max(dot3(h, h), fv(1e-12f));
+    half_way.h4 = half_way.hh * half_way.hh;
     return about_normal(half_way, normal);
 }
 
@@ -112,8 +114,7 @@ SHARED_FN FV ggx_light(GgxLobe lobe, HalfVector half_way, FV n_dot_l, FV lit) {
     // Lagrange's identity |n x h|^2 = h^2 - (n.h)^2 keeps narrow lobes (Filament, 4.4.1). Both
     // sides of D's fraction are multiplied by h^2, which saves normalising h, and divided by alpha,
     // so that the peak of a mirror keeps the size it has in the end.
-    FV hh = half_way.hh;
-    FV ggx = fma(half_way.sin2, lobe.slope, lobe.alpha * hh);
+    FV ggx = fma(half_way.sin2, lobe.slope, lobe.alpha * half_way.hh);
 #if HAS_ANISOTROPY
     FV b_dot_h = dot3(lobe.tangent, half_way.nxh);  // up to its sign
     ggx = fma(b_dot_h * b_dot_h, lobe.rise, ggx);
@@ -123,7 +124,7 @@ SHARED_FN FV ggx_light(GgxLobe lobe, HalfVector half_way, FV n_dot_l, FV lit) {
     FV smith_l = lane_sqrt(fma(n_dot_l * n_dot_l, fv(1.0f) - lobe.alpha2, lobe.alpha2));
 #endif
     FV smith = fma(n_dot_l, lobe.smith_v, lobe.n_dot_v * smith_l);
-    return lane_divide(lit * (hh * hh), ggx * ggx * smith);
+    return lane_divide(lit * half_way.h4, ggx * ggx * smith);
 }
 
 // D V n.l without 1 / (2 pi), at most, where n.h is at most `cosine`: V n.l <= 1 / (2 smith_v).

@@ -101,7 +101,8 @@ SHARED_PLAIN_STRUCT(ShadingPoint) {
 #if HAS_COAT
     FV3 coat_normal;
     GgxLobe coat;
-    FV coat_share;  // of the coat; the surface below it keeps the rest
+    FV coat_share;
+    FV below_coat;  // share of light that the coat leaves to the surface below it
 #endif
 #if HAS_SHEEN_LOBE
     SheenLobe sheen;
@@ -157,6 +158,7 @@ SHARED_FN ShadingPoint with_coat(ShadingPoint p, Surface s) {
     FV schlick2 = schlick * schlick;
     FV f = schlick2 * schlick2 * schlick;
     p.coat_share = s.coat * fma(fv(1.0f) - f, fv(DIELECTRIC_F0), f);
+    p.below_coat = fv(1.0f) - p.coat_share;
     return p;
 }
 #endif

@@ -21,8 +21,8 @@ constexpr InstructionCounts kPowOfCos2 = {36.0, 0.0, 0.0, 1.0};
 
 // n x h 6, its square 3.
 constexpr InstructionCounts kHalfVectorSine = {9.0};
-// GGX 2; Smith 2 and a square root 1, both 2; h^4 1, lobe 3 and a division 1.
-constexpr InstructionCounts kGgx = {12.0, 0.0, 1.0, 1.0};
+// GGX 2; Smith 2 and a square root 1, both 2; lobe 3 and a division 1.
+constexpr InstructionCounts kGgx = {11.0, 0.0, 1.0, 1.0};
 
 InstructionCounts sheen_instructions() {
     // n.h 3 and its square 1; lambda: the cosine or its complement 4, the other 1, l 4 with a
@@ -46,9 +46,10 @@ InstructionCounts pbr_instructions(const KernelFeatures& kernels) {
     const bool varies = kernels.metallic || kernels.specular;
     const InstructionCounts sums =
         2.0 * kAddScaled + InstructionCounts{(varies ? 7.0 : 3.0) + (kernels.specular ? 2.0 : 0.0)};
-    InstructionCounts work = kHalfVector + kHalfVectorSine + lobe + sums;
-    // The lobe without Schlick's 10 but with its own weight.
-    if (kernels.clearcoat) work = work + ggx + kAddScaled;
+    // h^4 1.
+    InstructionCounts work = kHalfVector + InstructionCounts{1.0} + kHalfVectorSine + lobe + sums;
+    // The lobe without Schlick's 10 but with its share 1; that of the light below 1.
+    if (kernels.clearcoat) work = work + ggx + InstructionCounts{2.0};
     // n.l 3 + 1 + 1, falloff 1.
     if (kernels.clearcoat && kernels.coat_normals)
         work = work + InstructionCounts{6.0} + kHalfVectorSine;
