@@ -131,7 +131,7 @@ static inline LobeLight stretched(ReflectionMaps maps, View view, Surface s, Sha
     out.light = scale3(sum, one / max(total, fv(1e-6f)));
     // The table's shares, changed as those of these half vectors change without strength.
     FV n_dot_v = p.lobe.n_dot_v, count = fv((float)STRETCHED_SAMPLES);
-    FV smith = lane_sqrt(fma(n_dot_v * n_dot_v, one - p.lobe.alpha2, p.lobe.alpha2));
+    FV smith = lane_sqrt(smith_square(p.lobe, n_dot_v));
     FV ratio = total * smith / (n_dot_v * count);
     FV more = fma(-total, schlick_rise(n_dot_v), rise) / count;
     out.shares = isotropic.shares;

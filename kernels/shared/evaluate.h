@@ -87,7 +87,11 @@ SHARED_FN FV specular_weight(FV lobe, FV reflectance, FV coat) {
 SHARED_FN LightSum add_pbr(LightSum sum, ShadingPoint p, HalfVector half_way, IncidentLight from,
                            FV coat, float4 color) {
     FV lit = from.lit;
+#if HAS_ANISOTROPY
+    FV lobe = stretched_light(p.lobe, half_way, from.n_dot_l, lit);
+#else
     FV lobe = ggx_light(p.lobe, half_way, from.n_dot_l, lit);
+#endif
     FV schlick = max(fma(-dot3(p.to_eye, half_way.h), lane_rsqrt(half_way.hh), fv(1.0f)), fv(0.0f));
     FV schlick2 = schlick * schlick;
     FV f = schlick2 * schlick2 * schlick;

@@ -43,6 +43,11 @@ SHARED_FN FV clamped_alpha(FV roughness) {
     return r * r;
 }
 
+// S(d)^2 of a round lobe, by the cosine of the unit direction d to the normal.
+SHARED_FN FV smith_square(GgxLobe lobe, FV n_dot_d) {
+    return fma(n_dot_d * n_dot_d, fv(1.0f) - lobe.alpha2, lobe.alpha2);
+}
+
 SHARED_FN GgxLobe make_ggx_lobe(FV3 normal, FV3 to_eye, FV roughness) {
     GgxLobe lobe;
     lobe.alpha = clamped_alpha(roughness);
@@ -60,8 +65,7 @@ SHARED_FN GgxLobe make_ggx_lobe(FV3 normal, FV3 to_eye, FV roughness) {
 #if HAS_ANISOTROPY
 // S(d), by the cosines of the unit direction d to the normal and the tangent.
 SHARED_FN FV stretched_smith(GgxLobe lobe, FV n_dot_d, FV t_dot_d) {
-    FV square = fma(n_dot_d * n_dot_d, fv(1.0f) - lobe.alpha2, lobe.alpha2);
-    return lane_sqrt(fma(t_dot_d * t_dot_d, lobe.stretch, square));
+    return lane_sqrt(fma(t_dot_d * t_dot_d, lobe.stretch, smith_square(lobe, n_dot_d)));
 }
 
 // The lobe with `strength` along the tangent. What it adds to a round lobe's terms is exactly 0
@@ -109,23 +113,36 @@ SHARED_FN HalfVector half_vector(FV3 normal, FV3 to_eye, FV3 v, FV inv_length) {
     return about_normal(half_way, normal);
 }
 
-// `lit` * D * V without its constant 1 / (2 pi), which reflected_radiance() multiplies in.
+// `lit` * D * V without its constant 1 / (2 pi), which reflected_radiance() multiplies in; `ggx`:
+// 1 / sqrt(D); smith_l: S(l).
+SHARED_FN FV ggx_quotient(GgxLobe lobe, FV ggx, FV smith_l, FV n_dot_l, FV lit_h4) {
+    FV smith = fma(n_dot_l, lobe.smith_v, lobe.n_dot_v * smith_l);
+    return lane_divide(lit_h4, ggx * ggx * smith);
+}
+
+// 1 / sqrt(D) of a round lobe. Lagrange's identity |n x h|^2 = h^2 - (n.h)^2 keeps narrow lobes
+// (Filament, 4.4.1). Both sides of D's fraction are multiplied by h^2, which saves normalising h,
+// and divided by alpha, so that the peak of a mirror keeps the size it has in the end.
+SHARED_FN FV round_ggx(GgxLobe lobe, HalfVector half_way) {
+    return fma(half_way.sin2, lobe.slope, lobe.alpha * half_way.hh);
+}
+
+// The light of a round lobe.
 SHARED_FN FV ggx_light(GgxLobe lobe, HalfVector half_way, FV n_dot_l, FV lit) {
-    // Lagrange's identity |n x h|^2 = h^2 - (n.h)^2 keeps narrow lobes (Filament, 4.4.1). Both
-    // sides of D's fraction are multiplied by h^2, which saves normalising h, and divided by alpha,
-    // so that the peak of a mirror keeps the size it has in the end.
-    FV ggx = fma(half_way.sin2, lobe.slope, lobe.alpha * half_way.hh);
+    FV smith_l = lane_sqrt(smith_square(lobe, n_dot_l));
+    return ggx_quotient(lobe, round_ggx(lobe, half_way), smith_l, n_dot_l, lit * half_way.h4);
+}
+
 #if HAS_ANISOTROPY
+// The light of a lobe that may be stretched.
+SHARED_FN FV stretched_light(GgxLobe lobe, HalfVector half_way, FV n_dot_l, FV lit) {
     FV b_dot_h = dot3(lobe.tangent, half_way.nxh);  // up to its sign
-    ggx = fma(b_dot_h * b_dot_h, lobe.rise, ggx);
+    FV ggx = fma(b_dot_h * b_dot_h, lobe.rise, round_ggx(lobe, half_way));
     FV t_dot_l = dot3(lobe.tangent, half_way.h) - lobe.t_dot_v;
     FV smith_l = stretched_smith(lobe, n_dot_l, t_dot_l);
-#else
-    FV smith_l = lane_sqrt(fma(n_dot_l * n_dot_l, fv(1.0f) - lobe.alpha2, lobe.alpha2));
-#endif
-    FV smith = fma(n_dot_l, lobe.smith_v, lobe.n_dot_v * smith_l);
-    return lane_divide(lit * half_way.h4, ggx * ggx * smith);
+    return ggx_quotient(lobe, ggx, smith_l, n_dot_l, lit * half_way.h4);
 }
+#endif
 
 // D V n.l without 1 / (2 pi), at most, where n.h is at most `cosine`: V n.l <= 1 / (2 smith_v).
 SHARED_FN FV ggx_bound(GgxLobe lobe, FV cosine) {

@@ -37,10 +37,8 @@ InstructionCounts blinn_phong_instructions() {
 }
 
 InstructionCounts pbr_instructions(const KernelFeatures& kernels) {
-    // b.h 3, its square 1, GGX 1; t.l 4, its square 1, Smith 1.
-    const InstructionCounts ggx = kGgx + InstructionCounts{kernels.anisotropy ? 11.0 : 0.0};
     // Schlick 3, inverse root 1, 2 + 3, 1 - f 1.
-    const InstructionCounts lobe = ggx + InstructionCounts{10.0, 1.0};
+    const InstructionCounts lobe = kGgx + InstructionCounts{10.0, 1.0};
     // Diffuse weight 1; specular weight 2, or 2 a channel where reflectance varies; 2 more where it
     // does so at grazing angles.
     const bool varies = kernels.metallic || kernels.specular;
@@ -49,10 +47,12 @@ InstructionCounts pbr_instructions(const KernelFeatures& kernels) {
     // h^4 1.
     InstructionCounts work = kHalfVector + InstructionCounts{1.0} + kHalfVectorSine + lobe + sums;
     // The lobe without Schlick's 10 but with its share 1; that of the light below 1.
-    if (kernels.clearcoat) work = work + ggx + InstructionCounts{2.0};
+    if (kernels.clearcoat) work = work + kGgx + InstructionCounts{2.0};
     // n.l 3 + 1 + 1, falloff 1.
     if (kernels.clearcoat && kernels.coat_normals)
         work = work + InstructionCounts{6.0} + kHalfVectorSine;
+    // b.h 3, its square 1, GGX 1; t.l 4, its square 1, Smith 1.
+    if (kernels.anisotropy) work = work + InstructionCounts{11.0};
     if (kernels.sheen) work = work + sheen_instructions() + kAddScaled;
     return work;
 }
