@@ -74,18 +74,19 @@ SHARED_PLAIN_STRUCT(IncidentLight) {
     FV lit;         // that times n.l
 };
 
-// `lobe` times its reflectance, plus what the coat reflects.
-SHARED_FN FV specular_weight(FV lobe, FV reflectance, FV coat) {
-#if HAS_COAT
-    return fma(lobe, reflectance, coat);
+// `lobe` times its reflectance, plus what the layers above reflect.
+SHARED_FN FV specular_weight(FV lobe, FV reflectance, FV above) {
+#if HAS_COAT || HAS_SHEEN_LOBE
+    return fma(lobe, reflectance, above);
 #else
     return lobe * reflectance;
 #endif
 }
 
-// Adds the light of the surface below its coat, and `coat`, the weight of what that reflects.
+// Adds the light of the surface below coat and sheen, and `above`, the weights of what they
+// reflect.
 SHARED_FN LightSum add_pbr(LightSum sum, ShadingPoint p, HalfVector half_way, IncidentLight from,
-                           FV coat, float4 color) {
+                           FV3 above, float4 color) {
     FV lit = from.lit;
 #if HAS_ANISOTROPY
     FV lobe = stretched_light(p.lobe, half_way, from.n_dot_l, lit);
@@ -103,14 +104,19 @@ SHARED_FN LightSum add_pbr(LightSum sum, ShadingPoint p, HalfVector half_way, In
     sum.diffuse = add_scaled(sum.diffuse, lit * g, color);
 #endif
 #if F0_VARIES
-    FV3 weight = fv3(specular_weight(lobe, fma(g, p.f0.x, f), coat),
-                     specular_weight(lobe, fma(g, p.f0.y, f), coat),
-                     specular_weight(lobe, fma(g, p.f0.z, f), coat));
-    sum.specular =
-        fv3(fma(weight.x, fv(color.x), sum.specular.x), fma(weight.y, fv(color.y), sum.specular.y),
-            fma(weight.z, fv(color.z), sum.specular.z));
+    FV3 reflectance = fv3(fma(g, p.f0.x, f), fma(g, p.f0.y, f), fma(g, p.f0.z, f));
 #else
-    FV weight = specular_weight(lobe, fma(g, fv(DIELECTRIC_F0), f), coat);
+    FV grey = fma(g, fv(DIELECTRIC_F0), f);
+    FV3 reflectance = fv3(grey, grey, grey);
+#endif
+    FV weight = specular_weight(lobe, reflectance.x, above.x);
+#if F0_VARIES || HAS_SHEEN_LOBE
+    FV weight_y = specular_weight(lobe, reflectance.y, above.y);
+    FV weight_z = specular_weight(lobe, reflectance.z, above.z);
+    sum.specular =
+        fv3(fma(weight, fv(color.x), sum.specular.x), fma(weight_y, fv(color.y), sum.specular.y),
+            fma(weight_z, fv(color.z), sum.specular.z));
+#else
     sum.specular = add_scaled(sum.specular, weight, color);
 #endif
     return sum;
@@ -135,12 +141,13 @@ SHARED_FN FV below_sheen(ShadingPoint p, FV cosine) {
     return fma(-p.sheen_most, taken, fv(1.0f));
 }
 
-SHARED_FN LightSum add_sheen(LightSum sum, ShadingPoint p, HalfVector half_way, IncidentLight from,
-                             float4 color) {
+// The weights of light that the coat and, below it, the sheen reflect: exactly 0 without a colour.
+SHARED_FN FV3 add_sheen(FV coat, ShadingPoint p, HalfVector half_way, IncidentLight from) {
     FV n_dot_h = dot3(p.normal, half_way.h);
     FV lobe = sheen_light(p.sheen, half_way.sin2, n_dot_h * n_dot_h, half_way.hh, from.n_dot_l);
-    sum.sheen = add_scaled(sum.sheen, from.weight * lobe, color);
-    return sum;
+    FV sheen = from.weight * lobe;
+    return fv3(fma(sheen, p.sheen_color.x, coat), fma(sheen, p.sheen_color.y, coat),
+               fma(sheen, p.sheen_color.z, coat));
 }
 #endif
 
@@ -154,13 +161,14 @@ SHARED_FN LightSum add_lobes(LightSum sum, ShadingPoint p, IncidentLight from, f
         from.lit = from.lit * p.below_coat;
     }
 #endif
+    FV3 above = fv3(coat, coat, coat);
 #if HAS_SHEEN_LOBE
     if (lane_any(p.sheen_most > fv(0.0f))) {
-        sum = add_sheen(sum, p, half_way, from, color);
+        above = add_sheen(coat, p, half_way, from);
         from.lit = from.lit * below_sheen(p, from.n_dot_l);
     }
 #endif
-    return add_pbr(sum, p, half_way, from, coat, color);
+    return add_pbr(sum, p, half_way, from, above, color);
 }
 #endif
 
@@ -310,13 +318,6 @@ SHARED_FN FV3 reflected_radiance(Surface s, ShadingPoint p, LightSum sum) {
                        fma(base.y * k * (fv(1.0f) - f0.y), sum.diffuse.y, lobe * sum.specular.y),
                        fma(base.z * k * (fv(1.0f) - f0.z), sum.diffuse.z, lobe * sum.specular.z));
 #endif
-#if HAS_SHEEN_LOBE
-    FV sheen = p.sheen.scale;
-#if HAS_COAT
-    sheen = sheen * p.below_coat;
-#endif
-    out_radiance = with_sheen_light(s, p, out_radiance, scale3(sum.sheen, sheen));
-#endif
 #if HAS_UNLIT
     MASK lit = is_lit(s);
     out_radiance =
@@ -368,7 +369,10 @@ SHARED_FN LightSum add_bounds(LightSum sum, Surface s, ShadingPoint p, LightBoun
                        fma(f.y, peak * most.all.y, sum.specular.y),
                        fma(f.z, peak * most.all.z, sum.specular.z));
 #if HAS_SHEEN_LOBE
-    sum.sheen = add3(sum.sheen, scale3(most.all, sheen_bound(p.sheen, p.lobe.n_dot_v)));
+    FV sheen = sheen_bound(p.sheen, p.lobe.n_dot_v);
+    sum.specular = fv3(fma(p.sheen_color.x, sheen * most.all.x, sum.specular.x),
+                       fma(p.sheen_color.y, sheen * most.all.y, sum.specular.y),
+                       fma(p.sheen_color.z, sheen * most.all.z, sum.specular.z));
 #endif
 #elif SHADING == SHADING_BLINN_PHONG
     FV cos2 = most.cosine * most.cosine;

@@ -18,7 +18,7 @@ namespace kilolux {
 // The terms of a BRDF that have sums of their own. TERM(has, member): whether the model has it.
 #define LIGHT_TERMS(TERM) \
     TERM(true, diffuse)   \
-    TERM(SHADING != SHADING_LAMBERT, specular) TERM(HAS_SHEEN_LOBE, sheen)
+    TERM(SHADING != SHADING_LAMBERT, specular)
 
 #define TERM_MEMBER(has, term) FV3 term;
 // Sums over lights of intensity * falloff * n.l, weighted as each term of the BRDF needs.

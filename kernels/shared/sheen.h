@@ -44,7 +44,7 @@ SHARED_PLAIN_STRUCT(SheenLobe) {
     FV a, b, c, d, e;                           // of l(x)
     FV twice_half;                              // 2 l(0.5)
     FV exponent;                                // of sin^2 of n and h: 1 / (2 alpha)
-    FV scale;                                   // (2 + 1 / alpha) / (8 pi n.v)
+    FV scale;                                   // (2 + 1 / alpha) / (4 n.v)
     FV shadow;                                  // 1 + lambda(n.v)
     FV albedo_0, albedo_1, albedo_2, albedo_3;  // log2 of E by powers of the cosine
     FV albedo;                                  // E(n.v)
@@ -86,14 +86,14 @@ SHARED_FN SheenLobe make_sheen_lobe(FV n_dot_v, FV roughness) {
     lobe.shadow = lobe.albedo = lobe.slope = fv(0.0f);
     lobe.twice_half = fv(2.0f) * sheen_l(lobe, fv(0.5f));
     lobe.exponent = fv(0.5f) / alpha;
-    lobe.scale = fv(0.0397887358f) * (fv(2.0f) + fv(1.0f) / alpha) / n_dot_v;
+    lobe.scale = fv(0.25f) * (fv(2.0f) + fv(1.0f) / alpha) / n_dot_v;
     lobe.shadow = fv(1.0f) + sheen_lambda(lobe, min(n_dot_v, fv(1.0f)));
     lobe.albedo = sheen_albedo(lobe, n_dot_v);
     lobe.slope = fma(fv(SHEEN_SLOPE_BY_R), inverse, fv(SHEEN_SLOPE));
     return lobe;
 }
 
-// D V n.l without `scale`, of the squares of |n x h|, n.h and h.
+// D V n.l without 1 / (2 pi) and `scale`, of the squares of |n x h|, n.h and h.
 SHARED_FN FV sheen_light(SheenLobe lobe, FV sin2, FV cos2, FV scale, FV n_dot_l) {
     FV charlie = pow_of_cos2(sin2, cos2, scale, lobe.exponent);
     FV light = lane_divide(charlie, lobe.shadow + sheen_lambda(lobe, n_dot_l));

@@ -106,7 +106,8 @@ SHARED_PLAIN_STRUCT(ShadingPoint) {
 #endif
 #if HAS_SHEEN_LOBE
     SheenLobe sheen;
-    FV sheen_most;  // the largest channel of its colour
+    FV3 sheen_color;  // times its lobe's scale and what a coat leaves
+    FV sheen_most;    // the largest channel of its colour
 #endif
 };
 
@@ -201,6 +202,10 @@ SHARED_FN ShadingPoint make_shading_point(Surface s, bool orthographic) {
 #if HAS_SHEEN_LOBE
     p.sheen = make_sheen_lobe(p.lobe.n_dot_v, s.sheen_roughness);
     p.sheen_most = max(max(s.sheen.x, s.sheen.y), s.sheen.z);
+    p.sheen_color = scale3(s.sheen, p.sheen.scale);
+#if HAS_COAT
+    p.sheen_color = scale3(p.sheen_color, p.below_coat);
+#endif
 #endif
     return p;
 }

@@ -53,7 +53,8 @@ InstructionCounts pbr_instructions(const KernelFeatures& kernels) {
         work = work + InstructionCounts{6.0} + kHalfVectorSine;
     // b.h 3, its square 1, GGX 1; t.l 4, its square 1, Smith 1.
     if (kernels.anisotropy) work = work + InstructionCounts{11.0};
-    if (kernels.sheen) work = work + sheen_instructions() + kAddScaled;
+    // A colour 3; specular weights of their own a channel.
+    if (kernels.sheen) work = work + sheen_instructions() + InstructionCounts{varies ? 3.0 : 5.0};
     return work;
 }
 

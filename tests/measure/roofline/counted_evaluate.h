@@ -41,7 +41,7 @@ inline ShadingPoint some_point(float cover = 0.5f) {
 // A sum in progress: adding to it counts.
 inline LightSum some_sum() {
     LightSum sum = zero_sum();
-    for (FV3* part : {&sum.diffuse, &sum.specular, &sum.sheen})
+    for (FV3* part : {&sum.diffuse, &sum.specular})
         for (FV* component : {&part->x, &part->y, &part->z}) component->varies = true;
     return sum;
 }

@@ -66,6 +66,12 @@
 #include "tests/measure/roofline/counted_evaluate.h"
 #undef HAS_SHEEN
 #define HAS_SHEEN 1
+#undef HAS_SPECULAR
+#define HAS_SPECULAR 0
+#define COUNTED pbr_coat_normal_sheen_spots
+#include "tests/measure/roofline/counted_evaluate.h"
+#undef HAS_SPECULAR
+#define HAS_SPECULAR 1
 #define COUNTED pbr_every_lobe_spots
 #include "tests/measure/roofline/counted_evaluate.h"
 #undef HAS_ANISOTROPY
@@ -122,6 +128,8 @@ const Case kCases[] = {
          .clearcoat = true),
     CASE(pbr_specular_coat_normal_spots, .shading = SHADING_PBR, .specular = true, .spots = true,
          .clearcoat = true, .coat_normals = true),
+    CASE(pbr_coat_normal_sheen_spots, .shading = SHADING_PBR, .spots = true, .clearcoat = true,
+         .sheen = true, .coat_normals = true),
     CASE(pbr_every_lobe_spots, .shading = SHADING_PBR, .specular = true, .spots = true,
          .clearcoat = true, .sheen = true, .coat_normals = true),
     CASE(pbr_every_stretched_lobe_spots, .shading = SHADING_PBR, .specular = true, .spots = true,
