@@ -5,6 +5,7 @@
 #include "kernels/device/lit_item.h"
 #include "kernels/device/radiance.h"
 #include "kernels/shading/environment.h"
+#include "kernels/shared/lobes/passed_light.h"
 #include "kernels/shared/surface.h"
 
 // The maps by levels, and the table.
@@ -91,11 +92,6 @@ typedef struct LobeLight {
 #define STRETCHED_SAMPLES 9
 #define STRETCHED_WIDTH 0.3f
 
-static inline FV schlick_rise(FV cosine) {
-    FV dark = max(fv(1.0f) - cosine, fv(0.0f));
-    return dark * dark * dark * dark * dark;
-}
-
 // The share of the light that a lobe reflects about the half vector h: 4 V v.h n.l / n.h.
 static inline FV share_about(ShadingPoint p, FV3 h, FV n_dot_h, FV v_dot_h) {
     FV3 l = sub3(scale3(h, 2.0f * v_dot_h), p.to_eye);
@@ -125,7 +121,7 @@ static inline LobeLight stretched(ReflectionMaps maps, View view, Surface s, Sha
         FV roughness = lane_sqrt(min(max(alpha, across), one));
         sum = add3(sum, scale3(lobe_light(maps, view, h, p.to_eye, roughness), share));
         total += share;
-        rise = fma(share, schlick_rise(v_dot_h), rise);
+        rise = fma(share, schlick_rise(one - v_dot_h), rise);
     }
     LobeLight out;
     out.light = scale3(sum, one / max(total, fv(1e-6f)));
@@ -133,7 +129,7 @@ static inline LobeLight stretched(ReflectionMaps maps, View view, Surface s, Sha
     FV n_dot_v = p.lobe.n_dot_v, count = fv((float)STRETCHED_SAMPLES);
     FV smith = lane_sqrt(smith_square(p.lobe, n_dot_v));
     FV ratio = total * smith / (n_dot_v * count);
-    FV more = fma(-total, schlick_rise(n_dot_v), rise) / count;
+    FV more = fma(-total, schlick_rise(one - n_dot_v), rise) / count;
     out.shares = isotropic.shares;
     out.shares.y = max(fma(isotropic.shares.y, ratio, more), fv(0.0f));
     out.shares.x =
@@ -154,36 +150,23 @@ static inline FV3 reflected(ReflectionMaps maps, View view, Surface s, FV3 irrad
     lobe = stretched(maps, view, s, p, lobe);
 #endif
     FV3 shares = lobe.shares, light = lobe.light;
-    FV f90 = fv(1.0f), kept = fv(1.0f) - shares.z;
+    FV f90 = fv(1.0f);
 #if HAS_SPECULAR
     f90 = p.f90;
-    kept = fma(shares.z, p.diffuse_rises, kept);
 #endif
 #if F0_VARIES
     FV3 f0 = p.f0;
 #else
     FV3 f0 = dielectric_f0(s);
 #endif
-    FV3 lost = diffuse_f0(s);
-    FV base = kept;
-#if HAS_METALLIC
-    base = kept * (fv(1.0f) - s.metallic);
-#endif
-#if HAS_TRANSMISSION
-    base = base * (fv(1.0f) - s.transmission);
-#endif
+    FV3 diffuse = diffuse_albedo(s, diffuse_share(p, shares.z));
     FV rise = f90 * shares.y;
-    FV3 out = fv3(fma(fma(f0.x, shares.x, rise), light.x,
-                      s.albedo.x * base * (fv(1.0f) - lost.x) * irradiance.x),
-                  fma(fma(f0.y, shares.x, rise), light.y,
-                      s.albedo.y * base * (fv(1.0f) - lost.y) * irradiance.y),
-                  fma(fma(f0.z, shares.x, rise), light.z,
-                      s.albedo.z * base * (fv(1.0f) - lost.z) * irradiance.z));
-#if HAS_SHEEN_LOBE
-    // Its wide lobe has less error with the diffuse light than with a prefiltered mirror direction.
-    out = scale3(out, fma(-p.sheen_most, p.sheen.albedo, fv(1.0f)));
-    out = with_sheen_light(s, p, out, scale3(irradiance, p.sheen.albedo));
-#endif
+    FV3 out = fv3(fma(fma(f0.x, shares.x, rise), light.x, diffuse.x * irradiance.x),
+                  fma(fma(f0.y, shares.x, rise), light.y, diffuse.y * irradiance.y),
+                  fma(fma(f0.z, shares.x, rise), light.z, diffuse.z * irradiance.z));
+    // The sheen's wide lobe has less error with the diffuse light than with a prefiltered mirror
+    // direction.
+    out = with_even_sheen(s, p, out, irradiance);
 #if HAS_COAT
     FV3 of_coat = table_at(maps, p.coat.n_dot_v, s.coat_roughness);
     FV3 coat = lobe_light(maps, view, s.coat_normal, p.to_eye, s.coat_roughness);
@@ -195,10 +178,7 @@ static inline FV3 reflected(ReflectionMaps maps, View view, Surface s, FV3 irrad
 }
 #else
 static inline FV3 reflected(ReflectionMaps maps, View view, Surface s, FV3 irradiance) {
-    FV3 albedo = s.albedo;
-#if HAS_TRANSMISSION
-    albedo = scale3(albedo, fv(1.0f) - s.transmission);
-#endif
+    FV3 albedo = even_albedo(s);
     return fv3(albedo.x * irradiance.x, albedo.y * irradiance.y, albedo.z * irradiance.z);
 }
 #endif

@@ -26,6 +26,15 @@ SHARED_PLAIN_STRUCT(LightSum){
     LIGHT_TERMS(TERM_MEMBER)  // linear Rec. 709
 };
 
+// Upper bounds of the factors of the light that a surface receives.
+SHARED_PLAIN_STRUCT(LightBound) {
+    FV cosine;       // n.h
+    FV fresnel;      // Schlick's (1 - v.h)^5
+    FV3 diffuse;     // the diffuse sum
+    FV3 all;         // the sum of intensity / distance^2
+    FV3 irradiance;  // that sum times n.l, or `all` where n.l is unknown
+};
+
 SHARED_FN LightSum zero_sum() {
     LightSum sum;
 #define ZERO_TERM(has, term) sum.term = zero3();

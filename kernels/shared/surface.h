@@ -10,8 +10,8 @@
 #define KILOLUX_SHARED_SURFACE_H
 #include "kernels/shared/evaluate_modes.h"
 #include "kernels/shared/gbuffer.h"
-#include "kernels/shared/ggx.h"
-#include "kernels/shared/sheen.h"
+#include "kernels/shared/lobes/ggx.h"
+#include "kernels/shared/lobes/sheen.h"
 #include "kernels/shared/types.h"
 
 #ifndef SHADING
@@ -57,6 +57,8 @@ namespace kilolux {
 
 SHARED_FN FV3 zero3() { return fv3(fv(0.0f), fv(0.0f), fv(0.0f)); }
 
+SHARED_FN FV largest_channel(FV3 c) { return max(max(c.x, c.y), c.z); }
+
 #define MEMBER_VECTOR(has, member, decoded, plane, value) FV3 member;
 #define MEMBER_SCALAR(has, member, decoded, plane, value) FV member;
 // A point on a surface, in view space.
@@ -95,8 +97,8 @@ SHARED_PLAIN_STRUCT(ShadingPoint) {
     FV3 f0;  // pbr: reflectance head on
 #endif
 #if HAS_SPECULAR
-    FV f90;            // pbr: reflectance at grazing angles
-    FV diffuse_rises;  // pbr: share of diffuse light kept at grazing angles, relative to head on
+    FV f90;           // pbr: reflectance at grazing angles
+    FV diffuse_loss;  // pbr: share of diffuse light lost at grazing angles, relative to head on
 #endif
 #if HAS_COAT
     FV3 coat_normal;
@@ -110,17 +112,6 @@ SHARED_PLAIN_STRUCT(ShadingPoint) {
     FV sheen_most;    // the largest channel of its colour
 #endif
 };
-
-#if HAS_TRANSMISSION
-// The share of the base colour's light that goes through the surface and is not scattered.
-SHARED_FN FV transmitting_share(Surface s) {
-#if SHADING != SHADING_LAMBERT && HAS_METALLIC
-    return s.transmission * (fv(1.0f) - s.metallic);
-#else
-    return s.transmission;
-#endif
-}
-#endif
 
 // Reflectance head on of a surface whose dielectric part has `dielectric`.
 SHARED_FN FV3 mixed_f0(Surface s, FV3 dielectric) {
@@ -145,8 +136,7 @@ SHARED_FN FV3 dielectric_f0(Surface s) {
 // Head-on loss of diffuse light: the reflectance of the strongest channel, so that a tinted one
 // does not colour the rest (KHR_materials_specular, implementation).
 SHARED_FN FV3 diffuse_f0(Surface s) {
-    FV3 f0 = dielectric_f0(s);
-    FV most = max(max(f0.x, f0.y), f0.z);
+    FV most = largest_channel(dielectric_f0(s));
     return mixed_f0(s, fv3(most, most, most));
 }
 
@@ -155,9 +145,7 @@ SHARED_FN FV3 diffuse_f0(Surface s) {
 SHARED_FN ShadingPoint with_coat(ShadingPoint p, Surface s) {
     p.coat_normal = s.coat_normal;
     p.coat = make_ggx_lobe(s.coat_normal, p.to_eye, s.coat_roughness);
-    FV schlick = max(fv(1.0f) - p.coat.n_dot_v, fv(0.0f));
-    FV schlick2 = schlick * schlick;
-    FV f = schlick2 * schlick2 * schlick;
+    FV f = schlick_rise(fv(1.0f) - p.coat.n_dot_v);
     p.coat_share = s.coat * fma(fv(1.0f) - f, fv(DIELECTRIC_F0), f);
     p.below_coat = fv(1.0f) - p.coat_share;
     return p;
@@ -193,15 +181,15 @@ SHARED_FN ShadingPoint make_shading_point(Surface s, bool orthographic) {
 #if HAS_SPECULAR
     FV lost = fv(1.0f) - s.specular_f90;
     p.f90 = fma(s.metallic - fv(1.0f), lost, fv(1.0f));
-    FV most = max(max(s.specular.x, s.specular.y), s.specular.z);
-    p.diffuse_rises = min(lost / max(fv(1.0f) - most, fv(1e-6f)), fv(1.0f));
+    FV kept = lost / max(fv(1.0f) - largest_channel(s.specular), fv(1e-6f));
+    p.diffuse_loss = fv(1.0f) - min(kept, fv(1.0f));
 #endif
 #if HAS_COAT
     p = with_coat(p, s);
 #endif
 #if HAS_SHEEN_LOBE
     p.sheen = make_sheen_lobe(p.lobe.n_dot_v, s.sheen_roughness);
-    p.sheen_most = max(max(s.sheen.x, s.sheen.y), s.sheen.z);
+    p.sheen_most = largest_channel(s.sheen);
     p.sheen_color = scale3(s.sheen, p.sheen.scale);
 #if HAS_COAT
     p.sheen_color = scale3(p.sheen_color, p.below_coat);

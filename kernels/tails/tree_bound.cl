@@ -30,8 +30,7 @@ static inline NodeError with_highlight_bounds(NodeError e, ShadingPoint p, float
     float inv_length = 1.0f / max(length_h, 1e-12f);
     e.cosine = clamp(dot(n, h) * inv_length + turn + 1e-6f, 0.0f, 1.0f);
     float v_dot_h = max(dot(v, h) * inv_length - 0.5f * stray, 0.0f);
-    float dark = 1.0f - min(v_dot_h, 1.0f);
-    e.fresnel = dark * dark * dark * dark * dark;
+    e.fresnel = schlick_rise(1.0f - v_dot_h);
     return e;
 }
 

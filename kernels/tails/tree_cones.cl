@@ -48,10 +48,9 @@ static inline ClusterCone cone_of_pixels(GBuffer g, uint tile, global const ucha
         if (s.coat > 0.0f) sharpness = max(sharpness, sharpness_of(s.coat_roughness));
 #endif
 #if HAS_SHEEN_LOBE
-        float most = max(max(s.sheen.x, s.sheen.y), s.sheen.z);
         // As wide as its roughness: the distribution is a power 1 / alpha of a sine.
         float width = max(s.sheen_roughness, ROUGHNESS_MIN);
-        if (most > 0.0f) sharpness = max(sharpness, WIDE_LOBE / width);
+        if (largest_channel(s.sheen) > 0.0f) sharpness = max(sharpness, WIDE_LOBE / width);
 #endif
 #endif
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // KHR_materials_sheen: the fit of what it returns, energy, and every renderer against float64 rays.
-#include "kernels/shared/sheen.h"
+#include "kernels/shared/lobes/sheen.h"
 
 #include <gtest/gtest.h>
 

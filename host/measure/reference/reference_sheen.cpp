@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernels/shared/sheen.h"
+#include "kernels/shared/lobes/sheen.h"
 
 namespace kilolux {
 namespace {

@@ -12,7 +12,7 @@ namespace kilolux {
 double reference_sheen(const SurfaceSample& surface, const glm::dvec3& to_eye,
                        const glm::dvec3& to_light);
 
-/// E of the extension's text at a cosine: SHEEN_ALBEDO_ROWS of kernels/shared/sheen.h.
+/// E of the extension's text at a cosine: SHEEN_ALBEDO_ROWS of kernels/shared/lobes/sheen.h.
 double reference_sheen_albedo(double cosine, double roughness);
 
 /// sheenAlbedoScaling: what the sheen leaves to the surface below it, by the cosines to the eye and

@@ -2,11 +2,13 @@
 // Compiles evaluate.h with counting lanes into namespace COUNTED, with the switches that are
 // defined. Included once for every set of switches, so there is no include guard.
 #undef KILOLUX_SHARED_EVALUATE_H
-#undef KILOLUX_SHARED_GGX_H
 #undef KILOLUX_SHARED_LIGHT_H
 #undef KILOLUX_SHARED_LIGHT_SUM_H
+#undef KILOLUX_SHARED_LOBES_GGX_H
+#undef KILOLUX_SHARED_LOBES_PASSED_LIGHT_H
+#undef KILOLUX_SHARED_LOBES_PBR_H
+#undef KILOLUX_SHARED_LOBES_SHEEN_H
 #undef KILOLUX_SHARED_POWER_H
-#undef KILOLUX_SHARED_SHEEN_H
 #undef KILOLUX_SHARED_SURFACE_H
 #undef F0_VARIES
 #undef HAS_COAT

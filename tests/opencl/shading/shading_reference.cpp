@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "kernels/shared/evaluate_modes.h"
-#include "kernels/shared/sheen.h"
+#include "kernels/shared/lobes/sheen.h"
 
 namespace kilolux {
 namespace {

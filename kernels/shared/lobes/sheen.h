@@ -2,9 +2,9 @@
 // The lobe of KHR_materials_sheen: the "Charlie" distribution with its own visibility, and the
 // share of light that it returns (Conty and Kulla 2017, "Production Friendly Microfacet Sheen
 // BRDF").
-#ifndef KILOLUX_SHARED_SHEEN_H
-#define KILOLUX_SHARED_SHEEN_H
-#include "kernels/shared/ggx.h"
+#ifndef KILOLUX_SHARED_LOBES_SHEEN_H
+#define KILOLUX_SHARED_LOBES_SHEEN_H
+#include "kernels/shared/lobes/ggx.h"
 #include "kernels/shared/power.h"
 #include "kernels/shared/types.h"
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// GGX lobes with Smith's height-correlated masking and shadowing (glTF 2.0, appendix B).
+// GGX lobes with Smith's height-correlated masking and shadowing, and Schlick's reflectance (glTF
+// 2.0, appendix B).
 //
 // HAS_ANISOTROPY: lobes may be stretched along a tangent t (KHR_materials_anisotropy), b = n x t:
 //   D(h) = 1 / (pi at ab X^2),  X = (h.t / at)^2 + (h.b / ab)^2 + (h.n)^2
 //   V = 1 / 2 / (n.l S(v) + n.v S(l)),  S(d)^2 = (at d.t)^2 + (ab d.b)^2 + (d.n)^2
-#ifndef KILOLUX_SHARED_GGX_H
-#define KILOLUX_SHARED_GGX_H
+#ifndef KILOLUX_SHARED_LOBES_GGX_H
+#define KILOLUX_SHARED_LOBES_GGX_H
 #include "kernels/shared/types.h"
 
 #ifndef HAS_ANISOTROPY
@@ -37,6 +38,13 @@ SHARED_PLAIN_STRUCT(GgxLobe) {
     FV rise;     // of the slope across the tangent
 #endif
 };
+
+// (1 - cosine)^5 of Schlick's f0 + (1 - f0) (1 - cosine)^5, from 1 - cosine.
+SHARED_FN FV schlick_rise(FV complement) {
+    FV dark = max(complement, fv(0.0f));
+    FV dark2 = dark * dark;
+    return dark2 * dark2 * dark;
+}
 
 SHARED_FN FV clamped_alpha(FV roughness) {
     FV r = max(roughness, fv(ROUGHNESS_MIN));
