@@ -7,7 +7,7 @@
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/light.h"
 #include "kernels/shared/light_profile.h"
-#include "kernels/shared/light_transform.h"
+#include "kernels/shared/lights/light_transform.h"
 #include "kernels/shared/view.h"
 #include "raster/gl_object.h"
 

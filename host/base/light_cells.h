@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/shared/light_order.h"
+#include "kernels/shared/lights/light_order.h"
 
 namespace kilolux {
 

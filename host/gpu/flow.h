@@ -14,7 +14,7 @@
 #include "kernels/shared/gbuffer.h"
 #include "kernels/shared/light.h"
 #include "kernels/shared/light_profile.h"
-#include "kernels/shared/light_tree.h"
+#include "kernels/shared/lights/light_tree.h"
 #include "kernels/shared/view.h"
 
 /// Everything that passes between stages. Arrays belong to the stage that made them and stay valid

@@ -9,7 +9,7 @@
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/clusters.h"
 #include "kernels/shared/light_profile.h"
-#include "kernels/shared/light_tree.h"
+#include "kernels/shared/lights/light_tree.h"
 #include "kernels/shared/shadow.h"
 #include "kernels/shared/surface_scene.h"
 #include "kernels/shared/view.h"

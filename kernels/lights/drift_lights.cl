@@ -9,8 +9,8 @@
 //   drift_paths    the lights' paths in that order: neighbours are read side by side every frame
 //   drift_lights   the lights' rows
 #include "kernels/shared/light.h"
-#include "kernels/shared/light_drift.h"
-#include "kernels/shared/light_order.h"
+#include "kernels/shared/lights/light_drift.h"
+#include "kernels/shared/lights/light_order.h"
 
 #define DIGIT_BITS 8
 #define DIGITS (1 << DIGIT_BITS)

@@ -3,7 +3,7 @@
 // One work-item prepares VW lights; the last one may have fewer.
 #include "kernels/device/arguments.h"
 #include "kernels/device/lanes.h"
-#include "kernels/shared/light_transform.h"
+#include "kernels/shared/lights/light_transform.h"
 
 #ifndef HAS_LIGHT_PROFILES
 #define HAS_LIGHT_PROFILES 0

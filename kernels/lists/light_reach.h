@@ -5,7 +5,7 @@
 #ifndef KILOLUX_DEVICE_LIGHT_REACH_H
 #define KILOLUX_DEVICE_LIGHT_REACH_H
 #include "kernels/shared/cluster_grid.h"
-#include "kernels/shared/light_transform.h"
+#include "kernels/shared/lights/light_transform.h"
 
 // xyz: the point of a light that its shadow rays go to, view space [m]; w: 1 / d^2 [1/m^2] of the
 // largest distance d from there to a point in the light's range.

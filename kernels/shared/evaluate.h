@@ -16,7 +16,7 @@
 #ifndef KILOLUX_SHARED_EVALUATE_H
 #define KILOLUX_SHARED_EVALUATE_H
 #include "kernels/shared/light.h"
-#include "kernels/shared/light_sum.h"
+#include "kernels/shared/lobes/light_sum.h"
 #include "kernels/shared/lobes/passed_light.h"
 #include "kernels/shared/lobes/pbr.h"
 #include "kernels/shared/power.h"

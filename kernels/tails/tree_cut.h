@@ -15,7 +15,7 @@
 #define KILOLUX_DEVICE_TREE_CUT_H
 #include "kernels/device/lanes.h"
 #include "kernels/shared/light.h"
-#include "kernels/shared/light_tree.h"
+#include "kernels/shared/lights/light_tree.h"
 
 // The surfaces of a cluster: their normals lie in a cone about `axis`.
 typedef struct ClusterCone {

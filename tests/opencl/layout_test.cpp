@@ -10,7 +10,7 @@
 #include "host/certify/synthetic/run_probe.h"
 #include "host/gpu/buffer.h"
 #include "host/gpu/flow.h"
-#include "kernels/shared/light_drift.h"
+#include "kernels/shared/lights/light_drift.h"
 #include "kernels/shared/surface_scene.h"
 #include "tests/support/test_gpu.h"
 
@@ -128,7 +128,7 @@ std::vector<Measure> cluster_measures() {
 constexpr std::string_view kLayoutHeaders[] = {
     "kernels/shared/light_profile.h", "kernels/shared/cluster_grid.h",
     "kernels/shared/clusters.h",      "kernels/shared/gbuffer.h",
-    "kernels/shared/light.h",         "kernels/shared/light_drift.h",
+    "kernels/shared/light.h",         "kernels/shared/lights/light_drift.h",
     "kernels/shared/surface_scene.h", "kernels/shared/view.h"};
 
 void expect_equal(const std::vector<Measure>& measures) {

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "host/measure/reference/decoded_samples.h"
-#include "kernels/shared/light_transform.h"
+#include "kernels/shared/lights/light_transform.h"
 
 namespace kilolux {
 namespace {

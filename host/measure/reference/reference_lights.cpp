@@ -6,7 +6,7 @@
 
 #include "host/measure/reference/reference.h"
 #include "host/scene/lights/light_kinds.h"
-#include "kernels/shared/light_transform.h"
+#include "kernels/shared/lights/light_transform.h"
 
 namespace kilolux {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "host/scene/lights/light_region.h"
 #include "host/scene/scene.h"
-#include "kernels/shared/light_drift.h"
+#include "kernels/shared/lights/light_drift.h"
 
 namespace kilolux {
 

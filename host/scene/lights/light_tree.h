@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "host/scene/scene.h"
-#include "kernels/shared/light_tree.h"
+#include "kernels/shared/lights/light_tree.h"
 
 namespace kilolux {
 

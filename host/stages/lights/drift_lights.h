@@ -7,7 +7,7 @@
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
 #include "host/stages/lists/prefix_sum.h"
-#include "kernels/shared/light_drift.h"
+#include "kernels/shared/lights/light_drift.h"
 
 namespace kilolux {
 

@@ -3,8 +3,8 @@
 // sheen and its clear coat.
 #ifndef KILOLUX_SHARED_LOBES_PBR_H
 #define KILOLUX_SHARED_LOBES_PBR_H
-#include "kernels/shared/light_sum.h"
 #include "kernels/shared/lobes/ggx.h"
+#include "kernels/shared/lobes/light_sum.h"
 #include "kernels/shared/lobes/passed_light.h"
 #include "kernels/shared/lobes/sheen.h"
 #include "kernels/shared/surface.h"

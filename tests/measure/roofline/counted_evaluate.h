@@ -3,8 +3,8 @@
 // defined. Included once for every set of switches, so there is no include guard.
 #undef KILOLUX_SHARED_EVALUATE_H
 #undef KILOLUX_SHARED_LIGHT_H
-#undef KILOLUX_SHARED_LIGHT_SUM_H
 #undef KILOLUX_SHARED_LOBES_GGX_H
+#undef KILOLUX_SHARED_LOBES_LIGHT_SUM_H
 #undef KILOLUX_SHARED_LOBES_PASSED_LIGHT_H
 #undef KILOLUX_SHARED_LOBES_PBR_H
 #undef KILOLUX_SHARED_LOBES_SHEEN_H

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The order in which kernels go through lights: along a Morton curve (Morton 1966) within cubes of
 // 32 cells along an edge.
-#ifndef KILOLUX_SHARED_LIGHT_ORDER_H
-#define KILOLUX_SHARED_LIGHT_ORDER_H
+#ifndef KILOLUX_SHARED_LIGHTS_LIGHT_ORDER_H
+#define KILOLUX_SHARED_LIGHTS_LIGHT_ORDER_H
 #include "kernels/shared/types.h"
 
 #if defined(__cplusplus)

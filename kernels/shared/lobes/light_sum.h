@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sums over lights, in blocks by light index.
-#ifndef KILOLUX_SHARED_LIGHT_SUM_H
-#define KILOLUX_SHARED_LIGHT_SUM_H
+#ifndef KILOLUX_SHARED_LOBES_LIGHT_SUM_H
+#define KILOLUX_SHARED_LOBES_LIGHT_SUM_H
 #include "kernels/shared/surface.h"
 #include "kernels/shared/types.h"
 

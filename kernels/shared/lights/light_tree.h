@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tree of the lights without a range, for Tails::tree. A node is a light, in the rows after the
 // culled lights: the sum of its lights' intensities at their weighted centre c.
-#ifndef KILOLUX_SHARED_LIGHT_TREE_H
-#define KILOLUX_SHARED_LIGHT_TREE_H
+#ifndef KILOLUX_SHARED_LIGHTS_LIGHT_TREE_H
+#define KILOLUX_SHARED_LIGHTS_LIGHT_TREE_H
 #include "kernels/shared/types.h"
 #if defined(__cplusplus)
 namespace kilolux {

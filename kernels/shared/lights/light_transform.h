@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Camera-relative lights in world axes -> view space.
-#ifndef KILOLUX_SHARED_LIGHT_TRANSFORM_H
-#define KILOLUX_SHARED_LIGHT_TRANSFORM_H
+#ifndef KILOLUX_SHARED_LIGHTS_LIGHT_TRANSFORM_H
+#define KILOLUX_SHARED_LIGHTS_LIGHT_TRANSFORM_H
 #include "kernels/shared/hash.h"
 #include "kernels/shared/light.h"
 #include "kernels/shared/light_profile.h"

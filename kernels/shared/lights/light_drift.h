@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Generated lights that move. Integers decide where each is at any time, so it is the same on every
 // device. For OpenCL C and C++.
-#ifndef KILOLUX_SHARED_LIGHT_DRIFT_H
-#define KILOLUX_SHARED_LIGHT_DRIFT_H
+#ifndef KILOLUX_SHARED_LIGHTS_LIGHT_DRIFT_H
+#define KILOLUX_SHARED_LIGHTS_LIGHT_DRIFT_H
 #include "kernels/shared/hash.h"
 #include "kernels/shared/types.h"
 
