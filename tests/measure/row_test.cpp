@@ -225,7 +225,7 @@ TEST(BenchRow, BeatsItsLimitByMoreThanTheNoise) {
 
 TEST(BenchPlots, DrawTimesAndSpeedUp) {
     std::vector<BenchRow> rows;
-    for (const std::uint64_t lights : {2000, 500}) {
+    for (const std::uint64_t lights : {2000u, 500u}) {
         rows.push_back(row_of(lights, "frame", 10.0));
         rows.push_back(row_of(lights, "cull_lights", 1.0));
         rows.push_back(row_of(lights, "frame", static_cast<double>(lights)));

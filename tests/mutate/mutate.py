@@ -39,7 +39,7 @@ NO_BUILD = re.compile(r"build failed with CL_|: does not compile: ")
 def sources():
     for folder in FOLDERS:
         # PoCL does not run this one, see host/stages/shadows/cast_shadows.cpp; under oclgrind it takes minutes.
-        yield from (path for path in sorted((ROOT / "kernels" / folder).glob("*.*"))
+        yield from (path for path in sorted((ROOT / "kernels" / folder).rglob("*.*"))
                     if path.name != "cast_shadows_by_group.cl")
 
 

@@ -28,13 +28,13 @@ PICTURES = [("certify_tests", "All/HardCases.*Lanes16"), ("render_tests", "Paths
 
 # The first that fits a path below kernels/.
 STEPS = (
-    (r"shared/(evaluate|surface\.|light_sum|evaluate_modes|power|sheen|ggx)", LIGHTING + TAILS + PROFILES),
+    (r"shared/(evaluate|surface\.|evaluate_modes|power|lobes/)", LIGHTING + TAILS + PROFILES),
     (r"shared/(gbuffer|store|pack)", GBUFFER + PICTURES),
     (r"shared/(texture|mips|surface_of|material|triangle)", SURFACES + PICTURES),
     (r"shared/surface_scene", SURFACES + TRIANGLES + PICTURES),
-    (r"shared/(hash|light_drift|light_order|light_transform|light\.)", LIGHTS + LIGHTING + TAILS),
+    (r"shared/(hash|lights/light_(drift|order|transform)|light\.)", LIGHTS + LIGHTING + TAILS),
     (r"shared/light_profile", PROFILES),
-    (r"shared/light_tree", TREE),
+    (r"shared/lights/light_tree", TREE),
     (r"shared/shadow", SHADOWS),
     (r"shared/(tone_curve|srgb_code)", DISPLAY + BACKGROUND),
     (r"shared/(types|view|clusters|cluster_grid)", LISTS + LIGHTING + SURFACES + PICTURES),

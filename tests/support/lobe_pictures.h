@@ -58,25 +58,31 @@ inline std::vector<double> reference_differences(const Scene& scene,
     return out;
 }
 
-inline void expect_reference_in_every_renderer(const Scene& scene) {
+/// `differences` of settings: relative, from float64 rays.
+template <typename Differences>
+void expect_reference_in_every_renderer(const Differences& differences) {
     for (const RendererKind renderer : {RendererKind::deferred, RendererKind::deferred_all,
                                         RendererKind::forward, RendererKind::forward_plus}) {
         RenderSettings settings = lobe_settings();
         settings.renderer = renderer;
-        const std::vector<double> found = reference_differences(scene, settings);
+        const std::vector<double> found = differences(settings);
         EXPECT_GT(found.size(), 3000u);
         EXPECT_LT(quantile(found, 0.5), 2e-5) << static_cast<int>(renderer);
         EXPECT_LT(quantile(found, 0.99), 5e-4) << static_cast<int>(renderer);
     }
-    EXPECT_LT(quantile(reference_differences(scene, lobe_settings(GBUFFER_PACKED)), 0.5), 1e-2);
+    EXPECT_LT(quantile(differences(lobe_settings(GBUFFER_PACKED)), 0.5), 1e-2);
 }
 
-inline void expect_lists_and_all_lights_same(const Scene& scene) {
+inline void expect_reference_in_every_renderer(const Scene& scene) {
+    expect_reference_in_every_renderer(
+        [&](const RenderSettings& settings) { return reference_differences(scene, settings); });
+}
+
+inline void expect_lists_and_all_lights_same(const Scene& scene,
+                                             const Camera& camera = sphere_camera()) {
     RenderSettings settings = small_settings(96, 96, 200);
     settings.shadows = Shadows::exact;
-    const auto radiance = [&] {
-        return Renderer(scene, settings).render(sphere_camera(), 0.0).radiance;
-    };
+    const auto radiance = [&] { return Renderer(scene, settings).render(camera, 0.0).radiance; };
     const std::vector<float> listed = radiance();
     for (const int lanes : {1, 4}) {
         settings.kernels.lanes = lanes;
@@ -86,7 +92,7 @@ inline void expect_lists_and_all_lights_same(const Scene& scene) {
     EXPECT_EQ(radiance(), listed);
 }
 
-/// `with` needs the feature, but nothing of it is left; `without` does not need it.
+/// `with` compiles the feature in, but no surface shows it; `without` leaves it out.
 inline void expect_same_without(const Scene& with, const Scene& without,
                                 bool SceneFeatures::*feature) {
     for (const uint layout : {uint{GBUFFER_PACKED}, uint{GBUFFER_FULL}}) {

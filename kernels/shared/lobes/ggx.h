@@ -118,6 +118,8 @@ SHARED_FN HalfVector half_vector(FV3 normal, FV3 to_eye, FV3 v, FV inv_length) {
     // long).
     half_way.hh = max(dot3(h, h), fv(1e-12f));
     half_way.h4 = half_way.hh * half_way.hh;
+    half_way.nxh = h;  // functions take the struct whole
+    half_way.sin2 = half_way.hh;
     return about_normal(half_way, normal);
 }
 

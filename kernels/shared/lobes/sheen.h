@@ -21,7 +21,7 @@
 // x: ROW(name, ...) has the factor of its power by 1, r, r^2, r^3, 1 / r and 1 / r^2 of the
 // roughness r. A fit to integrals of the lobe, limited to 1, which the model exceeds at grazing
 // angles below r = 0.25; its error is at most 0.013 where x > 0.009, and 0.2 below
-// (tests/measure/sheen_test.cpp).
+// (tests/measure/lobes/sheen_test.cpp).
 #define SHEEN_ALBEDO_ROWS(ROW)                                                          \
     ROW(albedo_0, 0.716415693f, -6.60801308f, 11.0991052f, -5.37777634f, 0.112214301f,  \
         -0.00161116947f)                                                                \
