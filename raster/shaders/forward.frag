@@ -115,5 +115,6 @@ void main() {
     out_behind = vec4(behind.x, behind.y, behind.z, 0.0);
     radiance = alpha > 0.0 ? scale3(radiance, alpha) : zero3();
 #endif
-    out_radiance = vec4(radiance.x, radiance.y, radiance.z, 1.0);
+    // Finite, since OpenGL blends by products: a share of 0 of infinite light would be NaN.
+    out_radiance = vec4(min(vec3(radiance.x, radiance.y, radiance.z), vec3(1e38)), 1.0);
 }

@@ -149,9 +149,13 @@ Bytes band_pixel_bytes(const RenderSettings& settings, const ScenePlan& plan, bo
     return bytes;
 }
 
+Bytes padded_width(const RenderSettings& settings) {
+    return static_cast<Bytes>(settings.width + FINE_TILE - 1) / FINE_TILE * FINE_TILE;
+}
+
 Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan& plan,
              bool draws_in_opencl) {
-    const Bytes width = static_cast<Bytes>(settings.width + FINE_TILE - 1) / FINE_TILE * FINE_TILE;
+    const Bytes width = padded_width(settings);
     const auto height = static_cast<Bytes>(settings.height);
     const Bytes tile_rows =
         is_forward(settings.renderer) ? height : std::min<Bytes>(height, kRasterRows);
@@ -195,10 +199,6 @@ std::string picture_text(const Scene& scene, const RenderSettings& settings) {
 }
 
 int multiple_of_tile(Bytes rows) { return static_cast<int>(rows / FINE_TILE * FINE_TILE); }
-
-Bytes padded_width(const RenderSettings& settings) {
-    return static_cast<Bytes>(settings.width + FINE_TILE - 1) / FINE_TILE * FINE_TILE;
-}
 
 // Rows that the host holds as one, and what does not depend on the rows of a band with them.
 struct Strip {

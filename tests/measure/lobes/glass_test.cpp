@@ -106,6 +106,33 @@ TEST(Glass, OfAMaskIsWholeOrNotThere) {
     EXPECT_EQ(seen_through(pane, 0.0).x, 1.0);
 }
 
+// The wall's radiance overflows; the lamp does not light the pane's front.
+TEST(Glass, WhatAlphaCoversIsNotSeenAlsoWhereItIsInfinite) {
+    Material wall, pane;
+    wall.metallic = pane.metallic = 0.0f;
+    pane.alpha_mode = AlphaMode::blend;
+    Scene scene;
+    add_glass_pane(scene, wall, -1.0, 0.0);
+    SceneLight lamp;
+    lamp.position = {0.0, 0.0, -0.7};
+    lamp.intensity = glm::vec3(3e38f);
+    lamp.range = 20.0f;
+    scene.lights.push_back(lamp);
+    RenderSettings settings = small_settings(17, 17, 0);
+    settings.gbuffer = GBUFFER_FULL;
+    settings.ambient = 0.0f;
+    const auto middle_of = [&] {
+        const Camera camera = look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 0.1);
+        return Renderer(scene, settings).render(camera, 0.0).radiance[3 * (8 * 17 + 8)];
+    };
+    EXPECT_GT(middle_of(), 1e37f);
+    add_glass_pane(scene, pane, 0.0, 0.0);
+    for (const RendererKind renderer : {RendererKind::deferred, RendererKind::forward}) {
+        settings.renderer = renderer;
+        EXPECT_EQ(middle_of(), 0.0f) << static_cast<int>(renderer);
+    }
+}
+
 TEST(Glass, ABlackTextureIsTheMaterialWithoutIt) {
     Scene scene = glass_scene();
     const TextureUse black = add_texel(scene, {0, 0, 0, 255});

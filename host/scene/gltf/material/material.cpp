@@ -136,6 +136,11 @@ void note_glass(const GltfDocument& document, const Material& material) {
         left_out("thick glass does not bend light");
 }
 
+// Also where an animation alone stretches its highlights.
+bool takes_tangents(const GltfMaterials& materials, std::size_t index) {
+    return needs_tangents(materials.materials[index]) || materials.stretched.contains(index);
+}
+
 }  // namespace
 
 void set_unlit(Material& material) {
@@ -178,8 +183,7 @@ MeshShading shading_of(const GltfMaterials& materials, const tinygltf::Primitive
     if (shading.material == kDefaultMaterial) return shading;
     const auto index = static_cast<std::size_t>(shading.material);
     shading.texcoord_sets = materials.texcoord_sets[index];
-    shading.needs_tangents =
-        needs_tangents(materials.materials[index]) || materials.stretched.contains(index);
+    shading.needs_tangents = takes_tangents(materials, index);
     shading.tangent_map = tangent_map(materials.materials[index]);
     return shading;
 }
@@ -197,9 +201,8 @@ void add_line_materials(const GltfDocument& document, GltfMaterials& materials) 
             const LineMaterial key = line_material_of(primitive);
             const auto index = static_cast<std::size_t>(std::max(primitive.material, 0));
             const bool is_default = primitive.material == kDefaultMaterial;
-            const bool bumpy = !is_default && (needs_tangents(materials.materials[index]) ||
-                                               materials.stretched.contains(index));
-            const bool as_it_is = key.normals && (key.tangents || !bumpy);
+            const bool is_plain = is_default || !takes_tangents(materials, index);
+            const bool as_it_is = key.normals && (key.tangents || is_plain);
             if (as_it_is || materials.of_lines.contains(key)) continue;
             Material made = is_default ? Material{} : materials.materials[index];
             for (const MaterialMap& map : kMaterialMaps) {
