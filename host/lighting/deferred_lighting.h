@@ -16,6 +16,8 @@ struct LightingInput {
     LightInput lights;
     ClusterGrid grid{};
     ShadowInput shadows{};  // with KernelFeatures::shadows
+    // Lists of the same lights, grid and camera, for other pixels: their lights serve again.
+    const ListedLights* others = nullptr;
 };
 
 /// Lights a G-buffer with the lights of each pixel's list: LightLists, Visibility with shadows,

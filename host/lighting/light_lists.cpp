@@ -25,7 +25,8 @@ ListedLights LightLists::run(const LightInput& input, const GBuffer& gbuffer,
 }
 
 ListedLights LightLists::enqueue(const LightInput& input, const GBuffer& gbuffer,
-                                 const ClusterGrid& grid, StageTimer& timer) {
+                                 const ClusterGrid& grid, StageTimer& timer,
+                                 const ListedLights* others) {
     check_input(gbuffer);
     check_input(grid, gbuffer.view);
     const ListSource source{gbuffer.version, input.version, input.seed, grid};
@@ -33,7 +34,7 @@ ListedLights LightLists::enqueue(const LightInput& input, const GBuffer& gbuffer
     made_.reset();  // arrays that grow must not be held twice
     is_checked_ = false;
     if (needs_room_) grow();
-    made_ = make(input, gbuffer, grid, timer);
+    made_ = make(input, gbuffer, grid, timer, others);
     made_->version = ++version_;
     made_of_ = source;
     return *made_;
@@ -92,11 +93,14 @@ ActiveClusters LightLists::active_of(const GBuffer& gbuffer, const ClusterGrid& 
 }
 
 ListedLights LightLists::make(const LightInput& input, const GBuffer& gbuffer,
-                              const ClusterGrid& grid, StageTimer& timer) {
+                              const ClusterGrid& grid, StageTimer& timer,
+                              const ListedLights* others) {
     const ActiveClusters active = active_of(gbuffer, grid, timer);
+    const DeviceArray<std::uint8_t> occupied =
+        everywhere_ ? DeviceArray<std::uint8_t>() : active.occupied;
     const CoarseLighting coarse =
-        coarse_.enqueue(input, gbuffer.view, grid, timer,
-                        everywhere_ ? DeviceArray<std::uint8_t>() : active.occupied);
+        others ? coarse_.enqueue(others->lights, others->boxes, timer, occupied)
+               : coarse_.enqueue(input, gbuffer.view, grid, timer, occupied);
     RefinedLists lists = refine_.enqueue(coarse.lights, coarse.lists, active, gbuffer.view, timer);
     refine_room_ = lists.capacity;
     has_cuts_ = coarse.lights.node_count > 0;
@@ -110,8 +114,9 @@ PixelLists LightLists::at_pixel(const ListedLights& lists, const View& view, uin
                                 float z) const {
     const ClusterGrid& grid = lists.grid;
     PixelLists out;
-    const uint row = (y + view.first_row) / grid.tile_height;
-    const uint coarse = cluster_index(grid, x / grid.tile_width, row, slice_of_depth(grid, z));
+    const uint column = picture_column(view, x) / grid.tile_width;
+    const uint row = picture_row(view, y) / grid.tile_height;
+    const uint coarse = cluster_index(grid, column, row, slice_of_depth(grid, z));
     const auto ends = download(gpu_, lists.coarse.offsets, 2, coarse);
     out.coarse_count = ends[1] - ends[0];
     const auto range = download(gpu_, lists.clusters.offsets, 2, fine_tile_of(view, x, y));

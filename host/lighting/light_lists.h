@@ -65,9 +65,10 @@ class LightLists {
 
     /// Enqueues the stages. Active clusters are kept while gbuffer.version and the grid stay, lists
     /// while input.version and its seed do, too. Valid until the next call. Throws Error when the
-    /// device cannot hold the lists.
+    /// device cannot hold the lists. `others`: lists of the same lights, grid and camera, for other
+    /// pixels, whose lights and boxes serve again.
     ListedLights enqueue(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
-                         StageTimer& timer);
+                         StageTimer& timer, const ListedLights* others = nullptr);
 
     /// False where the last enqueue()'s lists had no room; the next one makes it. Waits for the
     /// device: asked once a frame, when the caller has nothing more to enqueue.
@@ -89,7 +90,7 @@ class LightLists {
 
  private:
     ListedLights make(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
-                      StageTimer& timer);
+                      StageTimer& timer, const ListedLights* others);
     ActiveClusters active_of(const GBuffer& gbuffer, const ClusterGrid& grid, StageTimer& timer);
     bool is_complete(const ListedLights& lists) const;
     void grow();

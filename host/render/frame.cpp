@@ -163,7 +163,7 @@ void render_band(Pipeline& p, const Shot& shot, const LightInput& lights, const 
             if (room.surfaces) before = with_surfaces;
         }
         p.reader.count({lit, stages, sample.camera}, out.stats);
-        stages.blend(sample, lit, p.environment, out);
+        stages.blend(lit, p.environment, out);
         out.stats.shaded_display = sample.display.has_value();
         if (!p.samples.is_one()) p.samples.add(lit.light, out);
     }

@@ -47,6 +47,11 @@ void FrameStages::draw_surfaces(const Sample& sample, LitBand& band, Measured ou
     }
     band.surfaces = surfaces_->enqueue(sample, out);
     band.shadows = surfaces_->shadows(sample);
+    if (!layers_) return;
+    // Drawn before the wait in room(), so that blend() knows how many there are.
+    layer_surfaces().begin(context_.device_surfaces(),
+                           crop(sample.camera, context_.settings.height, sample.band),
+                           band.surfaces, out.timer);
 }
 
 void FrameStages::list_lights(const Sample& sample, LitBand& band, Measured out) {
@@ -91,9 +96,8 @@ Room FrameStages::room(const LitBand& band, Measured out) {
     return out_room;
 }
 
-void FrameStages::blend(const Sample& sample, LitBand& band, EnvironmentLight& environment,
-                        Measured out) {
-    if (layers_) layers_->draw(sample, layer_surfaces(), band, environment, out);
+void FrameStages::blend(LitBand& band, EnvironmentLight& environment, Measured out) {
+    if (layers_) layers_->draw(layer_surfaces(), band, environment, out);
 }
 
 BlendedLayers& FrameStages::layer_surfaces() {

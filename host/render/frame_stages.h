@@ -51,7 +51,7 @@ class FrameStages {
     BlendedLayers& layer_surfaces();
 
     /// Surfaces that blend, over the lit ones. Blocks.
-    void blend(const Sample& sample, LitBand& band, EnvironmentLight& environment, Measured out);
+    void blend(LitBand& band, EnvironmentLight& environment, Measured out);
     bool blends() const { return layers_.has_value(); }
 
     /// Draws the G-buffer for the forward renderers, which only later requests need.

@@ -2,6 +2,7 @@
 #include "host/render/layers.h"
 
 #include <algorithm>
+#include <numeric>
 #include <vector>
 
 namespace kilolux {
@@ -13,14 +14,13 @@ SurfacePlan layer_plan(const RenderContext& context) {
 
 namespace {
 
-// Fine tiles that show a triangle. ids: [height][stride].
+// Fine tiles of all layers that show a triangle. ids: [height][stride].
 std::uint64_t covered_tiles(const std::vector<uint>& ids, const View& view) {
-    const std::size_t across = (view.width + FINE_TILE - 1) / FINE_TILE;
-    std::vector<char> covered(across * ((view.height + FINE_TILE - 1) / FINE_TILE), 0);
-    for (std::size_t y = 0; y < view.height; ++y) {
-        for (std::size_t x = 0; x < view.width; ++x) {
-            if (ids[y * view.stride + x] == 0) continue;
-            covered[y / FINE_TILE * across + x / FINE_TILE] = 1;
+    std::vector<char> covered(fine_tile_count(view), 0);
+    for (uint y = 0; y < view.height; ++y) {
+        for (uint x = 0; x < view.width; ++x) {
+            if (ids[std::size_t{y} * view.stride + x] == 0) continue;
+            covered[fine_tile_of(view, x, y)] = 1;
         }
     }
     return static_cast<std::uint64_t>(std::ranges::count(covered, 1));
@@ -43,8 +43,9 @@ Layers::Layers(RenderContext& context)
     }
 }
 
-Radiance Layers::light(const LitBand& layer, StageTimer& timer) {
-    const LightingInput input{layer.surfaces, layer.lights, layer.grid, layer.shadows};
+Radiance Layers::light(const LitBand& layers, const LitBand& behind, StageTimer& timer) {
+    const LightingInput input{layers.surfaces, layers.lights, layers.grid, layers.shadows,
+                              &behind.lists};
     const float ambient = context_.settings.ambient;
     if (all_) {
         all_->set_ambient(ambient);
@@ -54,35 +55,33 @@ Radiance Layers::light(const LitBand& layer, StageTimer& timer) {
     return lighting_->light(input, timer);
 }
 
-void Layers::draw(const Sample& sample, BlendedLayers& layers, const LitBand& band,
-                  EnvironmentLight& environment, Measured out) {
-    LitBand layer;
-    layer.lights = band.lights;
-    layer.grid = band.grid;
-    layer.shadows = band.shadows;
+void Layers::draw(BlendedLayers& layers, const LitBand& band, EnvironmentLight& environment,
+                  Measured out) {
+    LitBand lit;
+    lit.lights = band.lights;
+    lit.grid = band.grid;
+    lit.shadows = band.shadows;
     std::uint64_t count = 0;
-    const auto lay = [&](const BlendedLayer& next) {
-        ++count;
-        out.stats.layer_pixels += next.pixels;
+    layers.each(out.timer, [&](const LayerStack& next) {
+        count += next.pixels.size();
+        out.stats.layer_pixels = std::accumulate(next.pixels.begin(), next.pixels.end(),
+                                                 std::uint64_t{out.stats.layer_pixels});
         if (context_.settings.want.counts) {
             const View& view = next.surfaces.view;
             out.stats.layer_tiles += covered_tiles(
                 download<uint>(context_.gpu, next.ids, std::size_t{view.stride} * view.height),
                 view);
         }
-        layer.surfaces = next.surfaces;
+        lit.surfaces = next.surfaces;
         if (origins_) {
-            layer.shadows.origins =
-                origins_->enqueue(next.ids, next.scene, layer.surfaces, layer.shadows.casters,
-                                  layer.shadows.view, out.timer);
+            lit.shadows.origins =
+                origins_->enqueue(next.ids, next.scene, lit.surfaces, lit.shadows.casters,
+                                  lit.shadows.view, out.timer);
         }
-        layer.light = light(layer, out.timer);
-        environment.reflect_in_layer(layer.surfaces, layer.light, out.timer);
-        blend_.enqueue(next.ids, next.scene, layer.surfaces, layer.light, band.light, out.timer);
-    };
-    layers.each(context_.device_surfaces(),
-                crop(sample.camera, context_.settings.height, sample.band), band.surfaces,
-                out.timer, lay);
+        lit.light = light(lit, band, out.timer);
+        environment.reflect_in_layer(lit.surfaces, lit.light, out.timer);
+        blend_.enqueue(next.ids, next.scene, lit.surfaces, lit.light, band.light, out.timer);
+    });
     out.stats.layers = std::max(out.stats.layers, count);
 }
 

@@ -16,8 +16,8 @@ namespace kilolux {
 /// What of the context's surfaces that blend is compiled in and stored.
 SurfacePlan layer_plan(const RenderContext& context);
 
-/// Lights surfaces that blend over others, of the deferred renderers: each layer as opaque surfaces
-/// are, at the cost of the lighting of a picture, and lays it over the light behind it.
+/// Lights surfaces that blend over others, of the deferred renderers: layers as opaque surfaces
+/// are, and lays them over the light behind.
 class Layers {
  public:
     /// Bytes of a pixel of a layer, beside its G-buffer and lists.
@@ -25,13 +25,13 @@ class Layers {
 
     explicit Layers(RenderContext& context);
 
-    /// Lays them over the light of `band`, which is lit and has its background. Blocks. Throws
-    /// Error and Interrupted as BlendedLayers::each() does.
-    void draw(const Sample& sample, BlendedLayers& layers, const LitBand& band,
-              EnvironmentLight& environment, Measured out);
+    /// Lays `layers`, which have begun, over the light of `band`, which is lit and has its
+    /// background. Blocks. Throws Error and Interrupted as BlendedLayers::each() does.
+    void draw(BlendedLayers& layers, const LitBand& band, EnvironmentLight& environment,
+              Measured out);
 
  private:
-    Radiance light(const LitBand& layer, StageTimer& timer);
+    Radiance light(const LitBand& layers, const LitBand& behind, StageTimer& timer);
 
     RenderContext& context_;
     std::optional<ShadowOrigins> origins_;      // with shadows

@@ -1,25 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/surfaces/raster_layers.h"
 
-#include <array>
-#include <vector>
+#include <algorithm>
 
 namespace kilolux {
 namespace {
 
+// Layers that are drawn before the host knows whether there are any.
+constexpr std::size_t kMostLayers = 4;
+
 // What a launch of `raster_layers` goes on from.
 struct LayerState {
-    uint is_first;
+    uint layer_rows, layer, last_layer, is_first;
     DeviceArray<float> keys;
     DeviceArray<uint> ids, drawn;
 
     void each(auto&& set) const {
+        set("layer_rows", layer_rows);
+        set("layer", layer);
+        set("last_layer", last_layer);
         set("is_first", is_first);
         set("keys", keys);
         set("ids", ids);
         set("drawn", drawn);
     }
 };
+
+std::size_t pixels_of(const View& view) { return std::size_t{view.stride} * view.height; }
+
+// The planes of as many layers of `region` as `pixels` have room for.
+View layer_planes(const View& region, std::size_t pixels) {
+    View out = region;
+    out.height = static_cast<uint>(round_up(region.height, FINE_TILE));
+    const std::size_t layers = std::min(pixels / pixels_of(out), kMostLayers);
+    if (layers < 2) return region;
+    out.height *= static_cast<uint>(layers);
+    out.more_layers = static_cast<uint>(layers - 1);
+    return out;
+}
 
 BuildOptions layer_options(const Tuning& tuning) {
     BuildOptions options;
@@ -39,27 +57,53 @@ RasterLayers::RasterLayers(const Gpu& gpu, const Tuning& tuning)
       ids_(gpu, kRasterLayersStage),
       drawn_(gpu, kRasterLayersStage) {}
 
-void RasterLayers::begin(const GBuffer& opaque, StageTimer& timer) {
-    view_ = opaque.view;
-    is_first_ = true;
-    const std::size_t size = std::size_t{view_.stride} * view_.height;
-    begin_.enqueue(begin_.pixel_items(view_, tuning_.shade_rows), timer, opaque,
-                   keys_.reserve(size), ids_.reserve(size));
+View first_layers(const View& view, uint count) {
+    View out = view;
+    out.height = count * rows_of_layer(view);
+    out.more_layers = count - 1;
+    return out;
 }
 
-DeviceArray<uint> RasterLayers::enqueue(const SurfaceBuffers& scene, const TriangleLists& lists,
-                                        StageTimer& timer) {
-    constexpr std::array<uint, 2> kNone{};
-    upload<uint>(gpu_, drawn_.reserve(kNone.size()), kNone);
-    draw_.enqueue(draw_.pixel_items(view_, tuning_.shade_rows), timer, view_, scene, lists,
-                  LayerState{is_first_ ? 1u : 0u, keys_.get(), ids_.get(), drawn_.get()});
+void RasterLayers::begin(const GBuffer& opaque, const View& region, StageTimer& timer) {
+    region_ = region;
+    layers_ = layer_planes(region, pixels_of(opaque.view));
+    is_first_ = true;
+    begin_.enqueue(begin_.pixel_items(region, tuning_.shade_rows), timer, opaque, region,
+                   keys_.reserve(pixels_of(region)));
+}
+
+LayerIds RasterLayers::enqueue(const SurfaceBuffers& scene, const TriangleLists& lists,
+                               StageTimer& timer) {
+    const uint count = layers_.more_layers + 1;
+    LayerState state{rows_of_layer(layers_),
+                     0,
+                     count - 1,
+                     is_first_ ? 1u : 0u,
+                     keys_.get(),
+                     ids_.reserve(pixels_of(layers_)),
+                     drawn_.reserve(2 * kMostLayers)};
+    gpu_.queue.enqueueFillBuffer(state.drawn, 0u, 0, 2 * kMostLayers * sizeof(uint));
+    for (; state.layer < count; ++state.layer) {
+        draw_.enqueue(draw_.pixel_items(first_layers(layers_, 1), tuning_.shade_rows), timer,
+                      region_, scene, lists, state);
+        state.last_layer = state.layer;
+        state.is_first = 0;
+    }
     is_first_ = false;
-    return ids_.get();
+    return {ids_.get(), layers_};
 }
 
 RasterLayers::Drawn RasterLayers::drawn() const {
-    const std::vector<uint> counts = download<uint>(gpu_, drawn_.get(), 2);
-    return {counts[0], counts[1] > 0};
+    const std::vector<uint> counts =
+        download<uint>(gpu_, drawn_.get(), 2 * (layers_.more_layers + 1));
+    Drawn out;
+    for (std::size_t i = 0; i < counts.size() && counts[i] > 0; i += 2) {
+        out.pixels.push_back(counts[i]);
+        out.may_go_on = counts[i + 1] > 0;
+    }
+    // All layers that there is room for, and more at pixels of the last.
+    out.may_go_on = out.may_go_on && 2 * out.pixels.size() == counts.size();
+    return out;
 }
 
 }  // namespace kilolux

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
 #include "host/gpu/stage_info.h"
@@ -10,6 +12,15 @@ namespace kilolux {
 
 inline constexpr StageInfo kRasterLayersStage = {"raster_layers", StageGroup::surfaces};
 
+/// Layers of triangle ids, from far to near, one below the other.
+struct LayerIds {
+    DeviceArray<uint> ids;  // [view.height][view.stride], as RasterTriangles has them
+    View view{};            // of all layers, whether or not they show anything
+};
+
+/// The first `count` layers of planes.
+View first_layers(const View& view, uint count);
+
 /// Draws surfaces that blend over others as triangle ids, layer by layer from far to near.
 class RasterLayers {
  public:
@@ -17,19 +28,19 @@ class RasterLayers {
 
     RasterLayers(const Gpu& gpu, const Tuning& tuning);
 
-    /// Starts anew: the next enqueue() draws the farthest layer in front of `opaque`. Enqueues
-    /// only.
-    void begin(const GBuffer& opaque, StageTimer& timer);
+    /// Starts anew: the next enqueue() draws the farthest layers in front of `opaque`, in the
+    /// rectangle `region` of its planes; as many as its pixels have room for, a few at most.
+    /// Enqueues only.
+    void begin(const GBuffer& opaque, const View& region, StageTimer& timer);
 
-    /// ids[view.height][view.stride] of the next layer, as RasterTriangles has them. `lists`: of
-    /// the triangles of `scene`'s instances that blend. Enqueues only; valid until the next call.
-    DeviceArray<uint> enqueue(const SurfaceBuffers& scene, const TriangleLists& lists,
-                              StageTimer& timer);
+    /// The next layers. `lists`: of the triangles of `scene`'s instances that blend, in `region`.
+    /// Enqueues only; valid until the next call.
+    LayerIds enqueue(const SurfaceBuffers& scene, const TriangleLists& lists, StageTimer& timer);
 
-    /// The last layer.
+    /// The last layers.
     struct Drawn {
-        std::uint64_t pixels = 0;  // that it covers; 0: there was none
-        bool may_go_on = false;    // else it was the nearest
+        std::vector<std::uint64_t> pixels;  // of each that covers any
+        bool may_go_on = false;             // else the nearest is among them
     };
     /// Blocks.
     Drawn drawn() const;
@@ -41,7 +52,7 @@ class RasterLayers {
     Kernel begin_, draw_;
     GrowingArray<float> keys_;
     GrowingArray<uint> ids_, drawn_;
-    View view_{};
+    View region_{}, layers_{};
     bool is_first_ = true;
 };
 
