@@ -51,7 +51,9 @@ void check_input(const ClusterGrid& grid, const View& view) {
         return size >= FINE_TILE && std::uint64_t{tiles} * size >= pixels;
     };
     const std::uint64_t columns = std::uint64_t{view.first_column} + view.width;
-    const std::uint64_t rows = std::uint64_t{view.first_row} + rows_of_layer(view);
+    // Layers may have empty rows below the picture.
+    const std::uint64_t rows =
+        std::uint64_t{view.first_row} + (view.layer_mask != 0 ? 1 : view.height);
     const std::uint64_t clusters = std::uint64_t{grid.tiles_x} * grid.tiles_y * grid.slices;
     const bool has_slices = grid.slices_per_octave > 0 && clusters == grid.cluster_count;
     if (has_slices && reaches(grid.tiles_x, grid.tile_width, columns) &&

@@ -25,14 +25,11 @@ CoarseLighting CoarseLightLists::enqueue(const LightInput& input, const View& vi
                                          const DeviceArray<std::uint8_t>& occupied) {
     check_input(input);
     check_input(grid, view);
-    const PreparedLights lights = prepare_.enqueue(input, view, grid, timer);
-    return enqueue(lights, build_.enqueue(view, grid, timer), timer, occupied);
-}
-
-CoarseLighting CoarseLightLists::enqueue(const PreparedLights& lights, const ClusterBoxes& boxes,
-                                         StageTimer& timer,
-                                         const DeviceArray<std::uint8_t>& occupied) {
-    return {lights, boxes, cull_.enqueue(lights, boxes, timer, occupied)};
+    CoarseLighting out;
+    out.lights = prepare_.enqueue(input, view, grid, timer);
+    out.boxes = build_.enqueue(view, grid, timer);
+    out.lists = cull_.enqueue(out.lights, out.boxes, timer, occupied);
+    return out;
 }
 
 HostCoarseLists CoarseLightLists::download(const CoarseLighting& coarse) const {

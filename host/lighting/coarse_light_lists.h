@@ -37,10 +37,6 @@ class CoarseLightLists {
     CoarseLighting enqueue(const LightInput& input, const View& view, const ClusterGrid& grid,
                            StageTimer& timer, const DeviceArray<std::uint8_t>& occupied = {});
 
-    /// The same from lights and boxes on.
-    CoarseLighting enqueue(const PreparedLights& lights, const ClusterBoxes& boxes,
-                           StageTimer& timer, const DeviceArray<std::uint8_t>& occupied);
-
     /// (light, cluster) pairs of the last enqueue(): on the device; on the host, which blocks.
     DeviceArray<std::uint64_t> total() const { return cull_.total(); }
     std::uint64_t pairs() const { return cull_.pairs(); }

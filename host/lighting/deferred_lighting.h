@@ -15,9 +15,8 @@ struct LightingInput {
     GBuffer gbuffer;
     LightInput lights;
     ClusterGrid grid{};
-    ShadowInput shadows{};  // with KernelFeatures::shadows
-    // Lists of the same lights, grid and camera, for other pixels: their lights serve again.
-    const ListedLights* others = nullptr;
+    ShadowInput shadows{};                // with KernelFeatures::shadows
+    const ListedLights* whole = nullptr;  // the pixels are MorePixels of these lists
 };
 
 /// Lights a G-buffer with the lights of each pixel's list: LightLists, Visibility with shadows,

@@ -122,11 +122,9 @@ void BandReader::each_layer(const LastSample& last,
     if (!context_.blends()) return;
     const View& view = last.band.surfaces.view;
     const Band rows{static_cast<int>(view.first_row), static_cast<int>(view.height)};
-    StageTimer untimed;
-    BlendedLayers& layers = last.stages.layer_surfaces();
-    layers.begin(context_.device_surfaces(), crop(last.camera, context_.settings.height, rows),
-                 last.band.surfaces, untimed);
-    layers.each(untimed, visit);
+    last.stages.layer_surfaces().each(context_.device_surfaces(),
+                                      crop(last.camera, context_.settings.height, rows),
+                                      last.band.surfaces, visit);
 }
 
 // Counts the layers, and with SurfaceLayer::nearest puts their surfaces in place of those behind.

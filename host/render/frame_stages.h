@@ -50,9 +50,11 @@ class FrameStages {
     /// The surfaces that blend, as layers over the others.
     BlendedLayers& layer_surfaces();
 
-    /// Surfaces that blend, over the lit ones. Blocks.
+    /// Surfaces that blend, over the lit ones: as many layers as the last frame had.
     void blend(LitBand& band, EnvironmentLight& environment, Measured out);
-    bool blends() const { return layers_.has_value(); }
+
+    /// After room(): further layers of them; false: there were none. Blocks.
+    bool blend_rest(LitBand& band, EnvironmentLight& environment, Measured out);
 
     /// Draws the G-buffer for the forward renderers, which only later requests need.
     void draw_missing_surfaces(const Camera& camera, LitBand& band);

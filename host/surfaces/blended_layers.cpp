@@ -53,50 +53,74 @@ BlendedLayers::BlendedLayers(const Gpu& gpu, const Tuning& tuning, const Scene& 
       raster_(gpu, tuning),
       resolve_(gpu, tuning, plan_.kernels, plan_.surfaces) {}
 
-void BlendedLayers::draw_first(StageTimer& timer) {
-    lists_ = {};  // arrays that grow must not be held twice
-    drawn_ = {};
-    lists_ = bin_.enqueue(on_device_, drawn_triangles(draws_, scene_), region_, timer);
-    raster_.begin(opaque_, region_, timer);
-    drawn_ = raster_.enqueue(on_device_, lists_, timer);
+// Draws the next layers as a G-buffer.
+void BlendedLayers::draw_layers(StageTimer& timer) {
+    const LayerIds drawn = raster_.enqueue(stack_.scene, lists_, timer);
+    const View& view = drawn.view;
+    stack_.ids = drawn.ids;
+    stack_.surfaces =
+        resolve_.enqueue(stack_.ids, stack_.scene,
+                         make_gbuffer_layout(plan_.gbuffer, view.stride, view.height), view, timer);
+    is_counted_ = false;
 }
 
-void BlendedLayers::begin(SurfaceScene& on_device, const Camera& camera, const GBuffer& opaque,
-                          StageTimer& timer) {
+void BlendedLayers::count_drawn() {
+    RasterLayers::Drawn drawn = raster_.drawn();
+    stack_.pixels = std::move(drawn.pixels);
+    found_ += stack_.pixels.size();
+    goes_on_ = drawn.may_go_on;
+    is_counted_ = true;
+}
+
+const LayerStack* BlendedLayers::begin(SurfaceScene& on_device, const Camera& camera,
+                                       const GBuffer& opaque, StageTimer& timer) {
+    if (version_ != 0 && opaque.version == version_) return draws_.empty() ? nullptr : &stack_;
+    version_ = opaque.version;
+    stack_ = {};  // arrays that grow must not be held twice
+    lists_ = {};
+    goes_on_ = false;
+    is_counted_ = true;
     const View& view = opaque.view;
     draws_ = draw_list_.visible(camera, static_cast<int>(view.width), static_cast<int>(view.height),
                                 true, DrawOrder::front_to_back);
-    if (draws_.empty()) return;
-    opaque_ = opaque;
-    on_device_ = on_device.at(draws_);
-    region_ = region_of(draws_, view);
-    draw_first(timer);
+    if (draws_.empty()) return nullptr;
+    stack_.draws = draws_;
+    stack_.scene = on_device.at(draws_);
+    const View region = region_of(draws_, view);
+    lists_ = bin_.enqueue(stack_.scene, drawn_triangles(draws_, scene_), region, timer);
+    // As many as there were the last time, so that most frames need no other stack.
+    raster_.begin(opaque, region, std::max<std::size_t>(found_, 1), timer);
+    found_ = 0;
+    draw_layers(timer);
+    stack_.surfaces.version = version_;
+    return &stack_;
 }
 
-void BlendedLayers::each(StageTimer& timer, const std::function<void(const LayerStack&)>& visit) {
-    if (draws_.empty()) return;
-    while (!bin_.fits(bin_.pairs())) draw_first(timer);
-    LayerStack stack;
-    stack.draws = draws_;
-    stack.scene = on_device_;
-    for (bool goes_on = true; goes_on;) {
-        check_interrupt();
-        const RasterLayers::Drawn drawn = raster_.drawn();
-        if (drawn.pixels.empty()) break;
-        goes_on = drawn.may_go_on;
-        stack.pixels = drawn.pixels;
-        const View view = first_layers(drawn_.view, static_cast<uint>(drawn.pixels.size()));
-        stack.ids = drawn_.ids;
-        stack.surfaces = resolve_.enqueue(
-            stack.ids, stack.scene, make_gbuffer_layout(plan_.gbuffer, view.stride, view.height),
-            view, timer);
-        visit(stack);
-        if (goes_on) drawn_ = raster_.enqueue(on_device_, lists_, timer);
+bool BlendedLayers::fits() {
+    if (is_counted_) return true;
+    if (bin_.fits(bin_.pairs())) {
+        count_drawn();
+        return true;
     }
-    opaque_ = {};
-    on_device_ = {};
-    lists_ = {};
-    drawn_ = {};
+    version_ = 0;
+    return false;
+}
+
+const LayerStack* BlendedLayers::next(StageTimer& timer) {
+    if (!goes_on_) return nullptr;
+    check_interrupt();
+    version_ = 0;
+    draw_layers(timer);
+    count_drawn();
+    return stack_.pixels.empty() ? nullptr : &stack_;
+}
+
+void BlendedLayers::each(SurfaceScene& on_device, const Camera& camera, const GBuffer& opaque,
+                         const std::function<void(const LayerStack&)>& visit) {
+    StageTimer untimed;
+    const LayerStack* stack = begin(on_device, camera, opaque, untimed);
+    while (!fits()) stack = begin(on_device, camera, opaque, untimed);
+    for (; stack; stack = next(untimed)) visit(*stack);
 }
 
 }  // namespace kilolux

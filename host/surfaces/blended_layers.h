@@ -24,13 +24,14 @@ struct SurfacePlan {
 };
 
 /// Neighbouring layers of the surfaces that blend, from far to near. The planes hold the rectangle
-/// of the picture in which there are any, once for each layer, one below the other.
+/// of the picture in which there may be any, once for each layer, one below the other; the last
+/// ones may be empty.
 struct LayerStack {
     DeviceArray<uint> ids;  // [height][stride], of the draws' triangles; 0: it does not cover it
     SurfaceBuffers scene;   // of the draws
     std::span<const Draw> draws;
     GBuffer surfaces;
-    std::vector<std::uint64_t> pixels;  // that each layer covers, at least one
+    std::vector<std::uint64_t> pixels;  // that each layer covers which covers any
 
     /// Where pixel (x, y) of the picture lies in the planes of layer `layer`; none: beside them.
     std::optional<std::size_t> place(std::size_t layer, uint x, uint y) const;
@@ -45,17 +46,27 @@ class BlendedLayers {
     /// The scene must outlive this; its instances may move, its meshes must stay as many.
     BlendedLayers(const Gpu& gpu, const Tuning& tuning, const Scene& scene, SurfacePlan plan);
 
-    /// Draws the farthest layers in front of `opaque`, which shows what `camera` sees. Enqueues
-    /// only; `on_device` must not be asked for other draws before each().
-    void begin(SurfaceScene& on_device, const Camera& camera, const GBuffer& opaque,
-               StageTimer& timer);
+    /// The farthest layers in front of `opaque`, which shows what `camera` sees; null: none is in
+    /// view. They stay while opaque.version does, which their surfaces take over. Enqueues only;
+    /// valid until the next call of begin() or next().
+    const LayerStack* begin(SurfaceScene& on_device, const Camera& camera, const GBuffer& opaque,
+                            StageTimer& timer);
 
-    /// Calls `visit` with all layers in turn; a stack is valid during the call. Blocks. Throws
-    /// Error as the stages do, Interrupted between stacks.
-    void each(StageTimer& timer, const std::function<void(const LayerStack&)>& visit);
+    /// False where the last begin() had too little room: it must be called again, and then has it.
+    /// Else its stack's `pixels` are there. Blocks.
+    bool fits();
+
+    /// The layers in front of the last ones, of which `pixels` are there; null: there are none.
+    /// Blocks. Throws Error as the stages do, and Interrupted.
+    const LayerStack* next(StageTimer& timer);
+
+    /// Calls `visit` with all layers in turn. Blocks. Throws as the others do.
+    void each(SurfaceScene& on_device, const Camera& camera, const GBuffer& opaque,
+              const std::function<void(const LayerStack&)>& visit);
 
  private:
-    void draw_first(StageTimer& timer);
+    void draw_layers(StageTimer& timer);
+    void count_drawn();
 
     const Scene& scene_;
     SurfacePlan plan_;
@@ -63,13 +74,15 @@ class BlendedLayers {
     BinTriangles bin_;
     RasterLayers raster_;
     ResolveSurfaces resolve_;
-    // Since begin().
-    GBuffer opaque_;
+    // Of the last begin().
     std::vector<Draw> draws_;
-    SurfaceBuffers on_device_;
-    View region_{};
     TriangleLists lists_;
-    LayerIds drawn_;
+    std::uint64_t version_ = 0;  // of what lies behind; 0: the stack is another one
+    // Of the last stack.
+    LayerStack stack_;
+    bool goes_on_ = false;  // there may be further layers
+    bool is_counted_ = false;
+    std::size_t found_ = RasterLayers::kMostLayers;  // layers since begin()
 };
 
 }  // namespace kilolux

@@ -32,7 +32,8 @@ SHARED_STRUCT(View) {
     float4 camera_position;  // xyz: world [m]; only layouts that store world positions need it
     uint first_row;     // of the picture, where the planes begin; `height` counts the planes' rows
     uint first_column;  // likewise; a multiple of 16; 0 in planes that OpenGL draws
-    uint more_layers;   // below the first, each of as many rows, a multiple of 16
+    uint layer_mask;  // bits of y that number the layer, where each has a power of two of rows; 0:
+                      // there is one
     uint unused0;
 };
 SHARED_ASSERT(view_size, sizeof(View) == 128);
@@ -40,12 +41,10 @@ SHARED_ASSERT(view_size, sizeof(View) == 128);
 // The picture's column and row of column x and row y of the planes.
 SHARED_FN uint picture_column(View view, uint x) { return x + view.first_column; }
 
-SHARED_FN uint rows_of_layer(View view) {
-    return view.more_layers != 0u ? view.height / (view.more_layers + 1u) : view.height;
-}
+SHARED_FN uint picture_row(View view, uint y) { return (y & ~view.layer_mask) + view.first_row; }
 
-SHARED_FN uint picture_row(View view, uint y) {
-    return (view.more_layers != 0u ? y % rows_of_layer(view) : y) + view.first_row;
+SHARED_FN uint rows_of_layer(View view) {
+    return view.layer_mask != 0u ? ~view.layer_mask + 1u : view.height;
 }
 
 // Depth z [m] of a pixel with depth01 at pixel coordinates (px, py), centres at +0.5.

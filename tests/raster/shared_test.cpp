@@ -57,7 +57,7 @@ std::vector<SharedStruct> shared_structs() {
           MEMBER(View, stride), MEMBER(View, orthographic), MEMBER(View, view_from_world_x),
           MEMBER(View, view_from_world_y), MEMBER(View, view_from_world_z),
           MEMBER(View, camera_position), MEMBER(View, first_row), MEMBER(View, first_column),
-          MEMBER(View, more_layers), MEMBER(View, unused0)},
+          MEMBER(View, layer_mask), MEMBER(View, unused0)},
          "depth.x"},
         {"ClusterGrid",
          "kernels/shared/cluster_grid.h",

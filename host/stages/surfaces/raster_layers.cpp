@@ -2,12 +2,10 @@
 #include "host/stages/surfaces/raster_layers.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace kilolux {
 namespace {
-
-// Layers that are drawn before the host knows whether there are any.
-constexpr std::size_t kMostLayers = 4;
 
 // What a launch of `raster_layers` goes on from.
 struct LayerState {
@@ -28,15 +26,13 @@ struct LayerState {
 
 std::size_t pixels_of(const View& view) { return std::size_t{view.stride} * view.height; }
 
-// The planes of as many layers of `region` as `pixels` have room for.
-View layer_planes(const View& region, std::size_t pixels) {
+// The planes of at most `layers` layers of `region`, as many as `pixels` have room for.
+View layer_planes(const View& region, std::size_t pixels, std::size_t layers) {
     View out = region;
-    out.height = static_cast<uint>(round_up(region.height, FINE_TILE));
-    const std::size_t layers = std::min(pixels / pixels_of(out), kMostLayers);
-    if (layers < 2) return region;
-    out.height *= static_cast<uint>(layers);
-    out.more_layers = static_cast<uint>(layers - 1);
-    return out;
+    out.height = std::max<uint>(std::bit_ceil(region.height), FINE_TILE);
+    out.layer_mask = ~(out.height - 1);
+    const std::size_t count = std::min(pixels / pixels_of(out), layers);
+    return count < 2 ? region : first_layers(out, static_cast<uint>(count));
 }
 
 BuildOptions layer_options(const Tuning& tuning) {
@@ -46,6 +42,12 @@ BuildOptions layer_options(const Tuning& tuning) {
 }
 
 }  // namespace
+
+View first_layers(const View& view, uint count) {
+    View out = view;
+    out.height = count * rows_of_layer(view);
+    return out;
+}
 
 RasterLayers::RasterLayers(const Gpu& gpu, const Tuning& tuning)
     : gpu_(gpu),
@@ -57,16 +59,10 @@ RasterLayers::RasterLayers(const Gpu& gpu, const Tuning& tuning)
       ids_(gpu, kRasterLayersStage),
       drawn_(gpu, kRasterLayersStage) {}
 
-View first_layers(const View& view, uint count) {
-    View out = view;
-    out.height = count * rows_of_layer(view);
-    out.more_layers = count - 1;
-    return out;
-}
-
-void RasterLayers::begin(const GBuffer& opaque, const View& region, StageTimer& timer) {
+void RasterLayers::begin(const GBuffer& opaque, const View& region, std::size_t layers,
+                         StageTimer& timer) {
     region_ = region;
-    layers_ = layer_planes(region, pixels_of(opaque.view));
+    layers_ = layer_planes(region, pixels_of(opaque.view), std::min(layers, kMostLayers));
     is_first_ = true;
     begin_.enqueue(begin_.pixel_items(region, tuning_.shade_rows), timer, opaque, region,
                    keys_.reserve(pixels_of(region)));
@@ -74,7 +70,7 @@ void RasterLayers::begin(const GBuffer& opaque, const View& region, StageTimer& 
 
 LayerIds RasterLayers::enqueue(const SurfaceBuffers& scene, const TriangleLists& lists,
                                StageTimer& timer) {
-    const uint count = layers_.more_layers + 1;
+    const uint count = layer_count(layers_);
     LayerState state{rows_of_layer(layers_),
                      0,
                      count - 1,
@@ -82,7 +78,7 @@ LayerIds RasterLayers::enqueue(const SurfaceBuffers& scene, const TriangleLists&
                      keys_.get(),
                      ids_.reserve(pixels_of(layers_)),
                      drawn_.reserve(2 * kMostLayers)};
-    gpu_.queue.enqueueFillBuffer(state.drawn, 0u, 0, 2 * kMostLayers * sizeof(uint));
+    gpu_.queue.enqueueFillBuffer(state.drawn.buffer(), 0u, 0, 2 * kMostLayers * sizeof(uint));
     for (; state.layer < count; ++state.layer) {
         draw_.enqueue(draw_.pixel_items(first_layers(layers_, 1), tuning_.shade_rows), timer,
                       region_, scene, lists, state);
@@ -94,8 +90,7 @@ LayerIds RasterLayers::enqueue(const SurfaceBuffers& scene, const TriangleLists&
 }
 
 RasterLayers::Drawn RasterLayers::drawn() const {
-    const std::vector<uint> counts =
-        download<uint>(gpu_, drawn_.get(), 2 * (layers_.more_layers + 1));
+    const std::vector<uint> counts = download<uint>(gpu_, drawn_.get(), 2 * layer_count(layers_));
     Drawn out;
     for (std::size_t i = 0; i < counts.size() && counts[i] > 0; i += 2) {
         out.pixels.push_back(counts[i]);

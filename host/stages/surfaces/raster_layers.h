@@ -18,23 +18,25 @@ struct LayerIds {
     View view{};            // of all layers, whether or not they show anything
 };
 
-/// The first `count` layers of planes.
+/// How many layers there are in planes, and the first `count` of them.
+inline uint layer_count(const View& view) { return view.height / rows_of_layer(view); }
 View first_layers(const View& view, uint count);
 
 /// Draws surfaces that blend over others as triangle ids, layer by layer from far to near.
 class RasterLayers {
  public:
     static constexpr std::size_t kPixelBytes = sizeof(float) + sizeof(uint);  // a key and an id
+    static constexpr std::size_t kMostLayers = 8;                             // of an enqueue()
 
     RasterLayers(const Gpu& gpu, const Tuning& tuning);
 
     /// Starts anew: the next enqueue() draws the farthest layers in front of `opaque`, in the
-    /// rectangle `region` of its planes; as many as its pixels have room for, a few at most.
-    /// Enqueues only.
-    void begin(const GBuffer& opaque, const View& region, StageTimer& timer);
+    /// rectangle `region` of its planes. Enqueues only.
+    void begin(const GBuffer& opaque, const View& region, std::size_t layers, StageTimer& timer);
 
-    /// The next layers. `lists`: of the triangles of `scene`'s instances that blend, in `region`.
-    /// Enqueues only; valid until the next call.
+    /// At most as many layers as begin() has asked for; fewer where planes of the size of `opaque`
+    /// have no room for them, but at least one. `lists`: of the triangles of `scene`'s instances
+    /// that blend, in `region`. Enqueues only; valid until the next call.
     LayerIds enqueue(const SurfaceBuffers& scene, const TriangleLists& lists, StageTimer& timer);
 
     /// The last layers.
