@@ -41,6 +41,7 @@ ListedLights LightLists::enqueue(const LightInput& input, const GBuffer& gbuffer
             coarse_.enqueue(input, gbuffer.view, grid, timer,
                             everywhere_ ? DeviceArray<std::uint8_t>() : active.occupied);
         coarse_total_ = coarse_.total();
+        is_within_ = false;
         return refined(coarse, active, gbuffer, timer);
     });
 }
@@ -54,6 +55,7 @@ ListedLights LightLists::enqueue_within(const ListedLights& whole, const GBuffer
         if (!found_) find_clusters(gbuffer, whole.grid, whole.clusters.occupied, timer);
         const ActiveClusters active = *std::exchange(found_, std::nullopt);
         coarse_total_ = whole.coarse_total;
+        is_within_ = true;
         return refined({whole.lights, whole.boxes, whole.coarse}, active, gbuffer, timer);
     });
 }
@@ -82,8 +84,8 @@ bool LightLists::fits(StageTimer& timer) {
         gpu_.queue.finish();
         return true;
     }
-    count_.enqueue({made_->coarse_total, bin_.total(), refine_.total()}, made_->clusters, true,
-                   timer);
+    count_.enqueue({made_->coarse_total, bin_.total(), refine_.total()}, made_->clusters,
+                   !is_within_, timer);
     counts_ = count_.read();
     is_checked_ = is_complete(*made_);
     if (is_checked_) {

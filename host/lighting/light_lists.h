@@ -91,7 +91,7 @@ class LightLists {
     ListedLights run(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
                      StageTimer& timer);
 
-    /// Counts of the last lists that fitted.
+    /// Counts of the last lists that fitted; without sums of those of enqueue_within().
     const PairCounts& counts() const { return counts_; }
 
     /// What `lists` have for the pixel (x, y) of the G-buffer, which has depth z > 0. Blocks.
@@ -127,6 +127,7 @@ class LightLists {
     bool needs_room_ = false;  // more than there is
     bool has_coarse_ = false;  // not of the coarse lists
     DeviceArray<std::uint64_t> coarse_total_;
+    bool is_within_ = false;               // the last lists are those of enqueue_within()
     std::optional<ActiveClusters> found_;  // of find_clusters()
     // Of the last clusters that were complete.
     std::uint64_t binned_version_ = 0;

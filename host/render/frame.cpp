@@ -162,7 +162,7 @@ void render_band(Pipeline& p, const Shot& shot, const LightInput& lights, const 
             stages.shade(sample, lit, out);
             p.environment.enqueue(lit, p.timer);
             stages.blend(lit, p.environment, out);
-            is_read = p.samples.is_one();
+            is_read = p.samples.is_one() && stages.may_blend_all();
             if (is_read) finish_picture(p, lit, frame);
             room = stages.room(lit, out);  // waits for the device
             if (room.surfaces) before = with_surfaces;

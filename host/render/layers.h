@@ -34,6 +34,9 @@ class Layers {
     /// only for shadows, as Visibility does.
     void draw(LitBand& band, EnvironmentLight& environment, StageTimer& timer);
 
+    /// Whether no further ones are expected.
+    bool may_be_all() const { return !first_ || surfaces_.may_be_all(); }
+
     /// False where begin() or draw() had too little room; they must run again, and then have it.
     /// Waits for the device.
     bool surfaces_fit() { return surfaces_.fits(); }

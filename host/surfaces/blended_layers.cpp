@@ -90,7 +90,7 @@ const LayerStack* BlendedLayers::begin(SurfaceScene& on_device, const Camera& ca
     lists_ = bin_.enqueue(stack_.scene, drawn_triangles(draws_, scene_), region, timer);
     // As many as there were the last time, so that most frames need no other stack.
     raster_.begin(opaque, region, std::max<std::size_t>(found_, 1), timer);
-    found_ = 0;
+    found_before_ = std::exchange(found_, 0);
     draw_layers(timer);
     stack_.surfaces.version = version_;
     return &stack_;

@@ -56,6 +56,9 @@ class BlendedLayers {
     /// Else its stack's `pixels` are there. Blocks.
     bool fits();
 
+    /// Whether begin() drew as many layers as there were the last time.
+    bool may_be_all() const { return found_before_ <= layer_count(stack_.surfaces.view); }
+
     /// The layers in front of the last ones, of which `pixels` are there; null: there are none.
     /// Blocks. Throws Error as the stages do, and Interrupted.
     const LayerStack* next(StageTimer& timer);
@@ -83,6 +86,7 @@ class BlendedLayers {
     bool goes_on_ = false;  // there may be further layers
     bool is_counted_ = false;
     std::size_t found_ = RasterLayers::kMostLayers;  // layers since begin()
+    std::size_t found_before_ = 0;                   // since the one before
 };
 
 }  // namespace kilolux

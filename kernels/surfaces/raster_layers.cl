@@ -11,10 +11,15 @@
 
 // The key of the surface behind all layers; the far plane's where there is none.
 kernel void raster_layers_begin(
-    GBUFFER_ARGS,                   // what lies behind, in planes that hold the rectangle
-    View region,                    // the rectangle
-    global float* restrict keys) {  // out [height][stride] of `region`
+    GBUFFER_ARGS,                 // what lies behind, in planes that hold the rectangle
+    View region,                  // the rectangle
+    global float* restrict keys,  // out [height][stride] of `region`
+    uint count,
+    global uint* restrict drawn) {  // out [count]: 0
     ItemPlace at = place_in_planes(region);
+    if (at.x + at.y == 0u) {
+        for (uint i = 0; i < count; ++i) drawn[i] = 0u;
+    }
     if (!at.inside) return;
     GBuffer g = {gbuffer, layout, view, srgb};
     Pixels pixels = row_pixels(view, at.x + region.first_column - view.first_column,

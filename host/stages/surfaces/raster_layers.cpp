@@ -7,6 +7,8 @@
 namespace kilolux {
 namespace {
 
+constexpr uint kCounts = 2 * RasterLayers::kMostLayers;
+
 // What a launch of `raster_layers` goes on from.
 struct LayerState {
     uint layer_rows, layer, last_layer, is_first;
@@ -65,20 +67,17 @@ void RasterLayers::begin(const GBuffer& opaque, const View& region, std::size_t 
     layers_ = layer_planes(region, pixels_of(opaque.view), std::min(layers, kMostLayers));
     is_first_ = true;
     begin_.enqueue(begin_.pixel_items(region, tuning_.shade_rows), timer, opaque, region,
-                   keys_.reserve(pixels_of(region)));
+                   keys_.reserve(pixels_of(region)), kCounts, drawn_.reserve(kCounts));
 }
 
 LayerIds RasterLayers::enqueue(const SurfaceBuffers& scene, const TriangleLists& lists,
                                StageTimer& timer) {
     const uint count = layer_count(layers_);
-    LayerState state{rows_of_layer(layers_),
-                     0,
-                     count - 1,
-                     is_first_ ? 1u : 0u,
-                     keys_.get(),
-                     ids_.reserve(pixels_of(layers_)),
-                     drawn_.reserve(2 * kMostLayers)};
-    gpu_.queue.enqueueFillBuffer(state.drawn.buffer(), 0u, 0, 2 * kMostLayers * sizeof(uint));
+    LayerState state{
+        rows_of_layer(layers_),           0,           count - 1, is_first_ ? 1u : 0u, keys_.get(),
+        ids_.reserve(pixels_of(layers_)), drawn_.get()};
+    if (!is_first_)
+        gpu_.queue.enqueueFillBuffer(state.drawn.buffer(), 0u, 0, kCounts * sizeof(uint));
     for (; state.layer < count; ++state.layer) {
         draw_.enqueue(draw_.pixel_items(first_layers(layers_, 1), tuning_.shade_rows), timer,
                       region_, scene, lists, state);
