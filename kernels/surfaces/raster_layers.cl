@@ -47,11 +47,12 @@ static inline MASK decide_exactly(SurfaceScene scene, View view, uint number, MA
     return lane_load(out);
 }
 
+// The layer to draw, of LayerState of host/stages/surfaces/raster_layers.cpp. last_layer: the next
+// farther one, unless is_first: there is none. Both count in the planes.
+#define LAYER_ARGS uint layer_rows, uint layer, uint last_layer, uint is_first
+
 kernel void raster_layers(View view, SCENE_ARGS, TRIANGLE_LIST_ARGS(const),  // in any order
-                          uint layer_rows,
-                          uint layer,                     // of the planes
-                          uint last_layer,                // of the planes, the next farther one
-                          uint is_first,                  // there is none
+                          LAYER_ARGS,
                           global float* restrict keys,    // in, out [height][stride]: of the layer
                           global uint* restrict ids,      // in, out [][layer_rows][stride]:
                                                           // triangle + 1; 0: none
