@@ -50,10 +50,13 @@ void check_input(const ClusterGrid& grid, const View& view) {
     const auto reaches = [](uint tiles, uint size, std::uint64_t pixels) {
         return size >= FINE_TILE && std::uint64_t{tiles} * size >= pixels;
     };
-    const std::uint64_t rows = std::uint64_t{view.first_row} + view.height;
+    const std::uint64_t columns = std::uint64_t{view.first_column} + view.width;
+    // Layers may have empty rows below the picture.
+    const std::uint64_t rows =
+        std::uint64_t{view.first_row} + (view.layer_mask != 0 ? 1 : view.height);
     const std::uint64_t clusters = std::uint64_t{grid.tiles_x} * grid.tiles_y * grid.slices;
     const bool has_slices = grid.slices_per_octave > 0 && clusters == grid.cluster_count;
-    if (has_slices && reaches(grid.tiles_x, grid.tile_width, view.width) &&
+    if (has_slices && reaches(grid.tiles_x, grid.tile_width, columns) &&
         reaches(grid.tiles_y, grid.tile_height, rows))
         return;
     const auto product = [](std::uint64_t a, std::uint64_t b) {
@@ -62,7 +65,7 @@ void check_input(const ClusterGrid& grid, const View& view) {
     throw Error("lighting: cluster grid: " + product(grid.tiles_x, grid.tiles_y) + " tiles of " +
                 product(grid.tile_width, grid.tile_height) + " pixels in " +
                 std::to_string(grid.slices) + " slices, " + std::to_string(grid.cluster_count) +
-                " clusters; it does not hold a picture of " + product(view.width, rows));
+                " clusters; it does not hold a picture of " + product(columns, rows));
 }
 
 void check_input(const ShadowInput& shadows, const View& view) {

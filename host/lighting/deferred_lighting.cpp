@@ -21,7 +21,8 @@ Radiance DeferredLighting::enqueue(const LightingInput& input, StageTimer& timer
     if (visibility_) check_input(input.shadows, input.gbuffer.view);
     lists_ = {};  // arrays that grow must not be held twice
     seen_ = {};
-    lists_ = light_lists_.enqueue(input.lights, input.gbuffer, input.grid, timer);
+    lists_ = input.whole ? light_lists_.enqueue_within(*input.whole, input.gbuffer, timer)
+                         : light_lists_.enqueue(input.lights, input.gbuffer, input.grid, timer);
     if (visibility_) seen_ = visibility_->enqueue(lists_, input.gbuffer, input.shadows, timer);
     return shade_.enqueue(lists_.at(input.gbuffer), timer,
                           {seen_.words, seen_.samples, input.shadows});

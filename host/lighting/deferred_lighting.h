@@ -15,7 +15,8 @@ struct LightingInput {
     GBuffer gbuffer;
     LightInput lights;
     ClusterGrid grid{};
-    ShadowInput shadows{};  // with KernelFeatures::shadows
+    ShadowInput shadows{};                // with KernelFeatures::shadows
+    const ListedLights* whole = nullptr;  // the pixels are MorePixels of these lists
 };
 
 /// Lights a G-buffer with the lights of each pixel's list: LightLists, Visibility with shadows,

@@ -2,6 +2,7 @@
 #include "host/lighting/light_lists.h"
 
 #include <cstring>
+#include <utility>
 
 #include "host/gpu/repeat_until_fits.h"
 #include "host/lighting/check_input.h"
@@ -25,15 +26,54 @@ ListedLights LightLists::run(const LightInput& input, const GBuffer& gbuffer,
 }
 
 ListedLights LightLists::enqueue(const LightInput& input, const GBuffer& gbuffer,
-                                 const ClusterGrid& grid, StageTimer& timer) {
+                                 const ClusterGrid& grid, StageTimer& timer,
+                                 const MorePixels& more) {
     check_input(gbuffer);
     check_input(grid, gbuffer.view);
-    const ListSource source{gbuffer.version, input.version, input.seed, grid};
+    return renewed({gbuffer.version, input.version, input.seed, grid}, [&] {
+        const bool is_kept = is_binned(gbuffer, grid);
+        const ActiveClusters active = active_of(gbuffer, grid, {}, timer);
+        if (more.lists) {
+            if (!is_kept) more.lists->binned_version_ = 0;  // `occupied` was cleared
+            more.lists->find_clusters(more.gbuffer, grid, active.occupied, timer);
+        }
+        const CoarseLighting coarse =
+            coarse_.enqueue(input, gbuffer.view, grid, timer,
+                            everywhere_ ? DeviceArray<std::uint8_t>() : active.occupied);
+        coarse_total_ = coarse_.total();
+        is_within_ = false;
+        return refined(coarse, active, gbuffer, timer);
+    });
+}
+
+ListedLights LightLists::enqueue_within(const ListedLights& whole, const GBuffer& gbuffer,
+                                        StageTimer& timer) {
+    check_input(gbuffer);
+    check_input(whole.grid, gbuffer.view);
+    return renewed({gbuffer.version, whole.version, 0, whole.grid}, [&] {
+        // The whole's lists may be kept ones: then these are made again, of the same clusters.
+        if (!found_) find_clusters(gbuffer, whole.grid, whole.clusters.occupied, timer);
+        const ActiveClusters active = *std::exchange(found_, std::nullopt);
+        coarse_total_ = whole.coarse_total;
+        is_within_ = true;
+        return refined({whole.lights, whole.boxes, whole.coarse}, active, gbuffer, timer);
+    });
+}
+
+void LightLists::find_clusters(const GBuffer& gbuffer, const ClusterGrid& grid,
+                               const DeviceArray<std::uint8_t>& occupied, StageTimer& timer) {
+    made_.reset();
+    if (needs_room_) grow();
+    found_ = active_of(gbuffer, grid, occupied, timer);
+}
+
+template <typename Make>
+ListedLights LightLists::renewed(const ListSource& source, const Make& make) {
     if (made_ && is_checked_ && source.matches(made_of_)) return *made_;
     made_.reset();  // arrays that grow must not be held twice
     is_checked_ = false;
     if (needs_room_) grow();
-    made_ = make(input, gbuffer, grid, timer);
+    made_ = make();
     made_->version = ++version_;
     made_of_ = source;
     return *made_;
@@ -44,7 +84,8 @@ bool LightLists::fits(StageTimer& timer) {
         gpu_.queue.finish();
         return true;
     }
-    count_.enqueue({coarse_.total(), bin_.total(), refine_.total()}, made_->clusters, true, timer);
+    count_.enqueue({made_->coarse_total, bin_.total(), refine_.total()}, made_->clusters,
+                   !is_within_, timer);
     counts_ = count_.read();
     is_checked_ = is_complete(*made_);
     if (is_checked_) {
@@ -53,6 +94,7 @@ bool LightLists::fits(StageTimer& timer) {
         return true;
     }
     needs_room_ = true;
+    has_coarse_ = counts_.coarse_pairs <= made_->coarse.capacity;
     made_.reset();
     active_ = {};
     binned_version_ = 0;
@@ -73,7 +115,7 @@ bool LightLists::is_complete(const ListedLights& lists) const {
 
 void LightLists::grow() {
     needs_room_ = false;
-    const bool coarse = coarse_.fits(counts_.coarse_pairs);
+    const bool coarse = has_coarse_ || coarse_.fits(counts_.coarse_pairs);
     const bool active = bin_.fits(counts_.active_clusters);
     // The need of each is known only once those before are complete.
     if (coarse && active && refine_.fits(counts_.refine_tests) && has_cuts_) {
@@ -81,37 +123,40 @@ void LightLists::grow() {
     }
 }
 
-// The last active clusters where pixels and grid are the same, else new ones.
+bool LightLists::is_binned(const GBuffer& gbuffer, const ClusterGrid& grid) const {
+    return binned_version_ != 0 && binned_version_ == gbuffer.version &&
+           std::memcmp(&grid, &binned_grid_, sizeof(grid)) == 0;
+}
+
+// The last active clusters where pixels and grid are the same, else new ones. `occupied`: see
+// BinPixels.
 ActiveClusters LightLists::active_of(const GBuffer& gbuffer, const ClusterGrid& grid,
-                                     StageTimer& timer) {
-    const bool same_grid = std::memcmp(&grid, &binned_grid_, sizeof(grid)) == 0;
-    if (binned_version_ != 0 && binned_version_ == gbuffer.version && same_grid) return active_;
+                                     const DeviceArray<std::uint8_t>& occupied, StageTimer& timer) {
+    if (is_binned(gbuffer, grid)) return active_;
     binned_version_ = 0;  // until they are complete
-    active_ = bin_.enqueue(gbuffer, grid, timer);
+    active_ = bin_.enqueue(gbuffer, grid, timer, occupied);
     return active_;
 }
 
-ListedLights LightLists::make(const LightInput& input, const GBuffer& gbuffer,
-                              const ClusterGrid& grid, StageTimer& timer) {
-    const ActiveClusters active = active_of(gbuffer, grid, timer);
-    const CoarseLighting coarse =
-        coarse_.enqueue(input, gbuffer.view, grid, timer,
-                        everywhere_ ? DeviceArray<std::uint8_t>() : active.occupied);
+ListedLights LightLists::refined(const CoarseLighting& coarse, const ActiveClusters& active,
+                                 const GBuffer& gbuffer, StageTimer& timer) {
     RefinedLists lists = refine_.enqueue(coarse.lights, coarse.lists, active, gbuffer.view, timer);
     refine_room_ = lists.capacity;
     has_cuts_ = coarse.lights.node_count > 0;
     if (has_cuts_) {
         lists = cut_->enqueue({gbuffer, coarse.lights, active, bin_.total(), lists}, timer);
     }
-    return {grid, coarse.lights, coarse.boxes, coarse.lists, active, lists, 0};
+    return {active.grid,   coarse.lights, coarse.boxes, coarse.lists,
+            coarse_total_, active,        lists,        0};
 }
 
 PixelLists LightLists::at_pixel(const ListedLights& lists, const View& view, uint x, uint y,
                                 float z) const {
     const ClusterGrid& grid = lists.grid;
     PixelLists out;
-    const uint row = (y + view.first_row) / grid.tile_height;
-    const uint coarse = cluster_index(grid, x / grid.tile_width, row, slice_of_depth(grid, z));
+    const uint column = picture_column(view, x) / grid.tile_width;
+    const uint row = picture_row(view, y) / grid.tile_height;
+    const uint coarse = cluster_index(grid, column, row, slice_of_depth(grid, z));
     const auto ends = download(gpu_, lists.coarse.offsets, 2, coarse);
     out.coarse_count = ends[1] - ends[0];
     const auto range = download(gpu_, lists.clusters.offsets, 2, fine_tile_of(view, x, y));

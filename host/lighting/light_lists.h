@@ -18,6 +18,7 @@ struct ListedLights {
     PreparedLights lights;
     ClusterBoxes boxes;
     CoarseLists coarse;
+    DeviceArray<std::uint64_t> coarse_total;  // pairs of coarse lists
     ActiveClusters clusters;
     RefinedLists refined;
     std::uint64_t version = 0;  // the same only where the lists are; 0: none
@@ -34,6 +35,14 @@ struct ListSource {
 
     /// Whether both are known and the same.
     bool matches(const ListSource& other) const;
+};
+
+class LightLists;
+
+/// Pixels beside those of lists, which need the coarse lists of their clusters, too.
+struct MorePixels {
+    LightLists* lists = nullptr;  // whose enqueue_within() takes them; null: there are none
+    GBuffer gbuffer;
 };
 
 /// The lists that light one pixel, on the host.
@@ -65,9 +74,13 @@ class LightLists {
 
     /// Enqueues the stages. Active clusters are kept while gbuffer.version and the grid stay, lists
     /// while input.version and its seed do, too. Valid until the next call. Throws Error when the
-    /// device cannot hold the lists.
+    /// device cannot hold the lists. `more`: equal versions of `gbuffer` are equal ones of theirs.
     ListedLights enqueue(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
-                         StageTimer& timer);
+                         StageTimer& timer, const MorePixels& more = {});
+
+    /// The same for the MorePixels of `whole`, from its coarse lists on.
+    ListedLights enqueue_within(const ListedLights& whole, const GBuffer& gbuffer,
+                                StageTimer& timer);
 
     /// False where the last enqueue()'s lists had no room; the next one makes it. Waits for the
     /// device: asked once a frame, when the caller has nothing more to enqueue.
@@ -78,7 +91,7 @@ class LightLists {
     ListedLights run(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
                      StageTimer& timer);
 
-    /// Counts of the last lists that fitted.
+    /// Counts of the last lists that fitted; without sums of those of enqueue_within().
     const PairCounts& counts() const { return counts_; }
 
     /// What `lists` have for the pixel (x, y) of the G-buffer, which has depth z > 0. Blocks.
@@ -88,9 +101,15 @@ class LightLists {
     std::vector<ActiveCluster> active_clusters(const ListedLights& lists) const;
 
  private:
-    ListedLights make(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
-                      StageTimer& timer);
-    ActiveClusters active_of(const GBuffer& gbuffer, const ClusterGrid& grid, StageTimer& timer);
+    template <typename Make>
+    ListedLights renewed(const ListSource& source, const Make& make);
+    void find_clusters(const GBuffer& gbuffer, const ClusterGrid& grid,
+                       const DeviceArray<std::uint8_t>& occupied, StageTimer& timer);
+    bool is_binned(const GBuffer& gbuffer, const ClusterGrid& grid) const;
+    ActiveClusters active_of(const GBuffer& gbuffer, const ClusterGrid& grid,
+                             const DeviceArray<std::uint8_t>& occupied, StageTimer& timer);
+    ListedLights refined(const CoarseLighting& coarse, const ActiveClusters& active,
+                         const GBuffer& gbuffer, StageTimer& timer);
     bool is_complete(const ListedLights& lists) const;
     void grow();
 
@@ -106,6 +125,10 @@ class LightLists {
     uint refine_room_ = 0;     // entries, of the last enqueue()
     bool has_cuts_ = false;    // likewise
     bool needs_room_ = false;  // more than there is
+    bool has_coarse_ = false;  // not of the coarse lists
+    DeviceArray<std::uint64_t> coarse_total_;
+    bool is_within_ = false;               // the last lists are those of enqueue_within()
+    std::optional<ActiveClusters> found_;  // of find_clusters()
     // Of the last clusters that were complete.
     std::uint64_t binned_version_ = 0;
     ClusterGrid binned_grid_{};

@@ -35,6 +35,28 @@ SurfaceValues surface_values(const Gpu& gpu, const cl::Buffer& planes, std::size
     return out;
 }
 
+// The place in planes `behind` of a pixel of planes of layers.
+std::size_t place_behind(const View& behind, const View& view, std::size_t place) {
+    const auto x = static_cast<uint>(place % view.stride);
+    const auto y = static_cast<uint>(place / view.stride);
+    return std::size_t{picture_row(view, y) - behind.first_row} * behind.stride +
+           picture_column(view, x) - behind.first_column;
+}
+
+// Puts what a layer shows at place `from` in place of what lies behind.
+void show_layer(DecodedSurfaces& out, std::size_t to, const std::vector<float>& planes,
+                std::size_t from) {
+    for (std::size_t i = 0; i < SURFACE_PLANES; ++i) {
+        out.planes[i * (out.planes.size() / SURFACE_PLANES) + to] =
+            planes[i * (planes.size() / SURFACE_PLANES) + from];
+    }
+    if (out.evaluated[to] != kBackground) return;
+    for (const auto counts : {&DecodedSurfaces::evaluated, &DecodedSurfaces::covering,
+                              &DecodedSurfaces::facing, &DecodedSurfaces::seen}) {
+        if (!(out.*counts).empty()) (out.*counts)[to] = 0;
+    }
+}
+
 // Adds to a probe what is known of its lights. `rows`: all lights.
 void add_lights(const RenderContext& context, const Camera& camera, const LightRows& rows,
                 PixelProbe& probe) {
@@ -96,39 +118,34 @@ DecodedSurfaces BandReader::pixels(const LastSample& last) {
 }
 
 void BandReader::each_layer(const LastSample& last,
-                            const std::function<void(const BlendedLayer&)>& visit) {
+                            const std::function<void(const LayerStack&)>& visit) {
     if (!context_.blends()) return;
     const View& view = last.band.surfaces.view;
     const Band rows{static_cast<int>(view.first_row), static_cast<int>(view.height)};
-    StageTimer untimed;
     last.stages.layer_surfaces().each(context_.device_surfaces(),
                                       crop(last.camera, context_.settings.height, rows),
-                                      last.band.surfaces, untimed, visit);
+                                      last.band.surfaces, visit);
 }
 
 // Counts the layers, and with SurfaceLayer::nearest puts their surfaces in place of those behind.
 void BandReader::add_layers(const LastSample& last, DecodedSurfaces& out) {
     const std::size_t size = plane_size(last.band);
     out.layers.assign(size, 0);
-    each_layer(last, [&](const BlendedLayer& layer) {
-        const std::vector<uint> ids = download<uint>(context_.gpu, layer.ids, size);
+    each_layer(last, [&](const LayerStack& stack) {
+        const View& view = stack.surfaces.view;
+        const std::size_t stack_size = std::size_t{view.stride} * view.height;
+        const std::vector<uint> ids = download<uint>(context_.gpu, stack.ids, stack_size);
         std::vector<float> planes;
         if (context_.settings.want.layer == SurfaceLayer::nearest) {
             StageTimer untimed;
-            planes = download<float>(context_.gpu, layer_decoder().enqueue(layer.surfaces, untimed),
-                                     SURFACE_PLANES * size);
+            planes = download<float>(context_.gpu, layer_decoder().enqueue(stack.surfaces, untimed),
+                                     SURFACE_PLANES * stack_size);
         }
-        for (std::size_t i = 0; i < size; ++i) {
+        for (std::size_t i = 0; i < stack_size; ++i) {
             if (ids[i] == 0) continue;
-            ++out.layers[i];
-            for (std::size_t from = i; from < planes.size(); from += size) {
-                out.planes[from] = planes[from];
-            }
-            if (planes.empty() || out.evaluated[i] != kBackground) continue;
-            for (const auto counts : {&DecodedSurfaces::evaluated, &DecodedSurfaces::covering,
-                                      &DecodedSurfaces::facing, &DecodedSurfaces::seen}) {
-                if (!(out.*counts).empty()) (out.*counts)[i] = 0;
-            }
+            const std::size_t to = place_behind(last.band.surfaces.view, view, i);
+            ++out.layers[to];
+            if (!planes.empty()) show_layer(out, to, planes, i);
         }
     });
 }
@@ -256,10 +273,7 @@ PixelProbe BandReader::probe(const LastSample& last, const LightRows& rows, int 
     last.stages.draw_missing_surfaces(last.camera, last.band);
     const LitBand& band = last.band;
     PixelProbe out = surface_at(band, x, y);
-    probe_layers(last,
-                 std::size_t{band.surfaces.view.stride} * static_cast<std::size_t>(y) +
-                     static_cast<std::size_t>(x),
-                 out);
+    probe_layers(last, static_cast<uint>(x), static_cast<uint>(y), out);
     if (!out.has_surface()) return out;
     if (last.stages.lists()) {
         probe_lists(last, x, y, out);
@@ -293,21 +307,29 @@ PixelProbe BandReader::surface_at(const LitBand& band, int x, int y) {
 }
 
 // From near to far.
-void BandReader::probe_layers(const LastSample& last, std::size_t pixel, PixelProbe& out) {
+void BandReader::probe_layers(const LastSample& last, uint x, uint y, PixelProbe& out) {
     const Scene& scene = context_.scene->scene();
-    each_layer(last, [&](const BlendedLayer& layer) {
-        const uint id = download<uint>(context_.gpu, layer.ids, 1, pixel).front();
-        if (id == 0) return;
-        const auto draw =
-            std::ranges::upper_bound(layer.draws, id - 1, {},
-                                     [](const Draw& d) { return d.row.first_triangle; }) -
-            1;
+    const View& behind = last.band.surfaces.view;
+    each_layer(last, [&](const LayerStack& stack) {
+        const View& view = stack.surfaces.view;
         StageTimer untimed;
-        const cl::Buffer planes = layer_decoder().enqueue(layer.surfaces, untimed);
-        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(draw->mesh)];
-        out.layers.insert(out.layers.begin(),
-                          {surface_values(context_.gpu, planes, plane_size(last.band), pixel),
-                           material_of(scene, mesh).name});
+        const cl::Buffer planes = layer_decoder().enqueue(stack.surfaces, untimed);
+        for (std::size_t layer = 0; layer < stack.pixels.size(); ++layer) {
+            const auto pixel =
+                stack.place(layer, picture_column(behind, x), picture_row(behind, y));
+            if (!pixel) return;
+            const uint id = download<uint>(context_.gpu, stack.ids, 1, *pixel).front();
+            if (id == 0) continue;
+            const auto draw =
+                std::ranges::upper_bound(stack.draws, id - 1, {},
+                                         [](const Draw& d) { return d.row.first_triangle; }) -
+                1;
+            const Mesh& mesh = scene.meshes[static_cast<std::size_t>(draw->mesh)];
+            const std::size_t size = std::size_t{view.stride} * view.height;
+            out.layers.insert(out.layers.begin(),
+                              {surface_values(context_.gpu, planes, size, *pixel),
+                               material_of(scene, mesh).name});
+        }
     });
 }
 

@@ -49,8 +49,8 @@ class BandReader {
     void count_evaluated(const LastSample& last, DecodedSurfaces& out);
     void count_seen(const LastSample& last, DecodedSurfaces& out);
     void add_layers(const LastSample& last, DecodedSurfaces& out);
-    void each_layer(const LastSample& last, const std::function<void(const BlendedLayer&)>& visit);
-    void probe_layers(const LastSample& last, std::size_t pixel, PixelProbe& out);
+    void each_layer(const LastSample& last, const std::function<void(const LayerStack&)>& visit);
+    void probe_layers(const LastSample& last, uint x, uint y, PixelProbe& out);
     std::vector<uint> forward_evaluated(const LastSample& last, const DecodedSurfaces& surfaces);
     std::vector<float> variance(const LastSample& last);
     std::vector<float> bound(const LastSample& last);

@@ -131,13 +131,20 @@ LightInput begin(Pipeline& p, const Shot& shot, Frame& frame, FrameStats& stats)
     return lights;
 }
 
+// The stages from the light of all samples to the frame.
+void finish_picture(Pipeline& p, LitBand& band, Frame& frame) {
+    p.picture.bloom(band, p.timer);
+    p.picture.tonemap(band, p.timer);
+    p.picture.read(band, frame, p.timer);
+}
+
 // Renders a band sample by sample, in the order of a frame; begin() has placed the lights. Repeats
 // the stages whose results had no room.
 void render_band(Pipeline& p, const Shot& shot, const LightInput& lights, const Band& band,
                  Frame& frame, Measured out) {
     FrameStages& stages = p.current_stages();
     LitBand& lit = p.last.band;
-    const bool is_one = p.samples.is_one() && !stages.blends();
+    bool is_read = false;
     p.samples.begin_band();
     while (const auto next = p.samples.next()) {
         check_interrupt();
@@ -154,24 +161,24 @@ void render_band(Pipeline& p, const Shot& shot, const LightInput& lights, const 
             p.environment.fill_behind(lit, p.timer);
             stages.shade(sample, lit, out);
             p.environment.enqueue(lit, p.timer);
-            if (is_one) {
-                p.picture.bloom(lit, p.timer);
-                p.picture.tonemap(lit, p.timer);
-                p.picture.read(lit, frame, p.timer);
-            }
+            stages.blend(lit, p.environment, out);
+            is_read = p.samples.is_one() && stages.may_blend_all();
+            if (is_read) finish_picture(p, lit, frame);
             room = stages.room(lit, out);  // waits for the device
             if (room.surfaces) before = with_surfaces;
         }
         p.reader.count({lit, stages, sample.camera}, out.stats);
-        stages.blend(sample, lit, p.environment, out);
+        if (stages.blend_rest(lit, p.environment, out)) {
+            is_read = false;
+            lit.shown.reset();
+            lit.display.reset();
+        }
         out.stats.shaded_display = sample.display.has_value();
         if (!p.samples.is_one()) p.samples.add(lit.light, out);
     }
-    if (!is_one) {
+    if (!is_read) {
         lit.light = p.samples.mean(lit.light, p.timer);
-        p.picture.bloom(lit, p.timer);
-        p.picture.tonemap(lit, p.timer);
-        p.picture.read(lit, frame, p.timer);
+        finish_picture(p, lit, frame);
     }
     p.picture.finish(p.timer, out.stats);
 }

@@ -31,8 +31,7 @@ FrameStages::FrameStages(RenderContext& context) : context_(context) {
         shade_all_.emplace(gpu, tuning, features, context.surface_features());
     }
     if (!context.blends()) return;
-    layer_surfaces();
-    layers_.emplace(context);
+    layers_.emplace(context, layer_surfaces());
 }
 
 void FrameStages::draw_surfaces(const Sample& sample, LitBand& band, Measured out) {
@@ -47,10 +46,14 @@ void FrameStages::draw_surfaces(const Sample& sample, LitBand& band, Measured ou
     }
     band.surfaces = surfaces_->enqueue(sample, out);
     band.shadows = surfaces_->shadows(sample);
+    if (layers_) layers_->begin(sample, band, out.timer);
 }
 
 void FrameStages::list_lights(const Sample& sample, LitBand& band, Measured out) {
-    if (lists_) band.lists = lists_->enqueue(sample.lights, band.surfaces, band.grid, out.timer);
+    if (lists_) {
+        band.lists = lists_->enqueue(sample.lights, band.surfaces, band.grid, out.timer,
+                                     layers_ ? layers_->more_pixels() : MorePixels{});
+    }
     if (!coarse_) return;
     const View view =
         view_of(sample.camera, context_.settings.width, context_.settings.height, sample.band);
@@ -86,14 +89,22 @@ Room FrameStages::room(const LitBand& band, Measured out) {
     Room out_room;
     out_room.lists = lists_ ? lists_->fits(out.timer) : has_coarse_;
     out_room.surfaces = forward_ || surfaces_->fits(out.stats);
+    if (layers_) {
+        const bool surfaces = layers_->surfaces_fit(), lists = layers_->lists_fit(out.timer);
+        out_room.surfaces = out_room.surfaces && surfaces;
+        out_room.lists = out_room.lists && lists;
+    }
     if (coarse_ && has_coarse_) out.stats.coarse_pairs = band.coarse.offsets.back();
     if (lists_) static_cast<PairCounts&>(out.stats) = lists_->counts();
     return out_room;
 }
 
-void FrameStages::blend(const Sample& sample, LitBand& band, EnvironmentLight& environment,
-                        Measured out) {
-    if (layers_) layers_->draw(sample, layer_surfaces(), band, environment, out);
+void FrameStages::blend(LitBand& band, EnvironmentLight& environment, Measured out) {
+    if (layers_) layers_->draw(band, environment, out.timer);
+}
+
+bool FrameStages::blend_rest(LitBand& band, EnvironmentLight& environment, Measured out) {
+    return layers_ && layers_->draw_rest(band, environment, out);
 }
 
 BlendedLayers& FrameStages::layer_surfaces() {

@@ -50,9 +50,14 @@ class FrameStages {
     /// The surfaces that blend, as layers over the others.
     BlendedLayers& layer_surfaces();
 
-    /// Surfaces that blend, over the lit ones. Blocks.
-    void blend(const Sample& sample, LitBand& band, EnvironmentLight& environment, Measured out);
-    bool blends() const { return layers_.has_value(); }
+    /// Surfaces that blend, over the lit ones; where the last frame had more layers than there is
+    /// room for, not all.
+    void blend(LitBand& band, EnvironmentLight& environment, Measured out);
+
+    bool may_blend_all() const { return !layers_ || layers_->may_be_all(); }
+
+    /// After room(): further layers of them; false: there were none. Blocks.
+    bool blend_rest(LitBand& band, EnvironmentLight& environment, Measured out);
 
     /// Draws the G-buffer for the forward renderers, which only later requests need.
     void draw_missing_surfaces(const Camera& camera, LitBand& band);

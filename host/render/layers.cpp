@@ -2,6 +2,7 @@
 #include "host/render/layers.h"
 
 #include <algorithm>
+#include <numeric>
 #include <vector>
 
 namespace kilolux {
@@ -13,14 +14,13 @@ SurfacePlan layer_plan(const RenderContext& context) {
 
 namespace {
 
-// Fine tiles that show a triangle. ids: [height][stride].
+// Fine tiles of all layers that show a triangle. ids: [height][stride].
 std::uint64_t covered_tiles(const std::vector<uint>& ids, const View& view) {
-    const std::size_t across = (view.width + FINE_TILE - 1) / FINE_TILE;
-    std::vector<char> covered(across * ((view.height + FINE_TILE - 1) / FINE_TILE), 0);
-    for (std::size_t y = 0; y < view.height; ++y) {
-        for (std::size_t x = 0; x < view.width; ++x) {
-            if (ids[y * view.stride + x] == 0) continue;
-            covered[y / FINE_TILE * across + x / FINE_TILE] = 1;
+    std::vector<char> covered(fine_tile_count(view), 0);
+    for (uint y = 0; y < view.height; ++y) {
+        for (uint x = 0; x < view.width; ++x) {
+            if (ids[std::size_t{y} * view.stride + x] == 0) continue;
+            covered[fine_tile_of(view, x, y)] = 1;
         }
     }
     return static_cast<std::uint64_t>(std::ranges::count(covered, 1));
@@ -28,8 +28,9 @@ std::uint64_t covered_tiles(const std::vector<uint>& ids, const View& view) {
 
 }  // namespace
 
-Layers::Layers(RenderContext& context)
+Layers::Layers(RenderContext& context, BlendedLayers& surfaces)
     : context_(context),
+      surfaces_(surfaces),
       blend_(context.resolving_gpu(), context.tuning, layer_plan(context).kernels,
              layer_plan(context).surfaces) {
     const SurfacePlan plan = layer_plan(context);
@@ -43,47 +44,70 @@ Layers::Layers(RenderContext& context)
     }
 }
 
-Radiance Layers::light(const LitBand& layer, StageTimer& timer) {
-    const LightingInput input{layer.surfaces, layer.lights, layer.grid, layer.shadows};
+void Layers::begin(const Sample& sample, const LitBand& band, StageTimer& timer) {
+    first_ = surfaces_.begin(context_.device_surfaces(),
+                             crop(sample.camera, context_.settings.height, sample.band),
+                             band.surfaces, timer);
+}
+
+MorePixels Layers::more_pixels() {
+    if (!first_ || !lighting_) return {};
+    return {&lighting_->light_lists(), first_->surfaces};
+}
+
+Radiance Layers::light(const LightingInput& input, StageTimer& timer) {
     const float ambient = context_.settings.ambient;
     if (all_) {
         all_->set_ambient(ambient);
         return all_->enqueue(input, timer);
     }
     lighting_->set_ambient(ambient);
-    return lighting_->light(input, timer);
+    return input.whole ? lighting_->enqueue(input, timer) : lighting_->light(input, timer);
 }
 
-void Layers::draw(const Sample& sample, BlendedLayers& layers, const LitBand& band,
-                  EnvironmentLight& environment, Measured out) {
-    LitBand layer;
-    layer.lights = band.lights;
-    layer.grid = band.grid;
-    layer.shadows = band.shadows;
-    std::uint64_t count = 0;
-    const auto lay = [&](const BlendedLayer& next) {
-        ++count;
-        out.stats.layer_pixels += next.pixels;
-        if (context_.settings.want.counts) {
-            const View& view = next.surfaces.view;
-            out.stats.layer_tiles += covered_tiles(
-                download<uint>(context_.gpu, next.ids, std::size_t{view.stride} * view.height),
-                view);
-        }
-        layer.surfaces = next.surfaces;
-        if (origins_) {
-            layer.shadows.origins =
-                origins_->enqueue(next.ids, next.scene, layer.surfaces, layer.shadows.casters,
-                                  layer.shadows.view, out.timer);
-        }
-        layer.light = light(layer, out.timer);
-        environment.reflect_in_layer(layer.surfaces, layer.light, out.timer);
-        blend_.enqueue(next.ids, next.scene, layer.surfaces, layer.light, band.light, out.timer);
-    };
-    layers.each(context_.device_surfaces(),
-                crop(sample.camera, context_.settings.height, sample.band), band.surfaces,
-                out.timer, lay);
-    out.stats.layers = std::max(out.stats.layers, count);
+// `whole`: that of LightingInput.
+void Layers::lay(const LayerStack& stack, const ListedLights* whole, LitBand& band,
+                 EnvironmentLight& environment, StageTimer& timer) {
+    LightingInput input{stack.surfaces, band.lights, band.grid, band.shadows, whole};
+    if (origins_) {
+        input.shadows.origins = origins_->enqueue(stack.ids, stack.scene, stack.surfaces,
+                                                  band.shadows.casters, band.shadows.view, timer);
+    }
+    const Radiance lit = light(input, timer);
+    environment.reflect_in_layer(stack.surfaces, lit, timer);
+    blend_.enqueue(stack.ids, stack.scene, stack.surfaces, lit, band.light, timer);
+}
+
+void Layers::draw(LitBand& band, EnvironmentLight& environment, StageTimer& timer) {
+    if (first_) lay(*first_, &band.lists, band, environment, timer);
+}
+
+bool Layers::lists_fit(StageTimer& timer) {
+    return !first_ || !lighting_ || lighting_->fits(timer);
+}
+
+// Returns the number of layers that cover any pixel.
+std::uint64_t Layers::count(const LayerStack& stack, FrameStats& stats) const {
+    stats.layer_pixels = std::accumulate(stack.pixels.begin(), stack.pixels.end(),
+                                         std::uint64_t{stats.layer_pixels});
+    if (context_.settings.want.counts) {
+        const View& view = stack.surfaces.view;
+        stats.layer_tiles += covered_tiles(
+            download<uint>(context_.gpu, stack.ids, std::size_t{view.stride} * view.height), view);
+    }
+    return stack.pixels.size();
+}
+
+bool Layers::draw_rest(LitBand& band, EnvironmentLight& environment, Measured out) {
+    if (!first_) return false;
+    const std::uint64_t first = count(*first_, out.stats);
+    std::uint64_t layers = first;
+    while (const LayerStack* stack = surfaces_.next(out.timer)) {
+        layers += count(*stack, out.stats);
+        lay(*stack, nullptr, band, environment, out.timer);
+    }
+    out.stats.layers = std::max(out.stats.layers, layers);
+    return layers > first;
 }
 
 }  // namespace kilolux

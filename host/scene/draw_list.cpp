@@ -112,21 +112,20 @@ bool outside(const std::array<glm::dvec4, 8>& corners, const glm::dmat4& clip) {
     return std::find(count.begin(), count.end(), 8) != count.end();
 }
 
-// Whether the box of the corners may be seen in one of the tiles.
-bool may_touch(const OpenTiles& open, const std::array<glm::dvec4, 8>& corners,
-               const glm::dmat4& clip, const glm::dvec2& size) {
+// Where the box of the corners may be seen.
+ScreenBox screen_box(const std::array<glm::dvec4, 8>& corners, const glm::dmat4& clip,
+                     const glm::dvec2& size) {
     constexpr double kMargin = 2.0;  // [pixel] as in outside(), and more
-    glm::dvec2 least(std::numeric_limits<double>::infinity());
-    glm::dvec2 most(-std::numeric_limits<double>::infinity());
+    ScreenBox out;
+    std::swap(out.least, out.most);
     for (const glm::dvec4& corner : corners) {
         const glm::dvec4 c = clip * corner;
-        if (!(c.w > kUnit * (std::abs(c.x) + std::abs(c.y))))
-            return true;  // beside or behind the camera
+        if (!(c.w > kUnit * (std::abs(c.x) + std::abs(c.y)))) return {};
         const glm::dvec2 pixel = (glm::dvec2(c.x, -c.y) / c.w * 0.5 + 0.5) * size;
-        least = glm::min(least, pixel);
-        most = glm::max(most, pixel);
+        out.least = glm::min(out.least, pixel - kMargin);
+        out.most = glm::max(out.most, pixel + kMargin);
     }
-    return open.touches(least - kMargin, most + kMargin);
+    return out;
 }
 
 Box box_of_vertices(const Mesh& mesh) {
@@ -184,7 +183,8 @@ std::vector<Draw> DrawList::visible(const Camera& camera, int width, int height,
         const glm::dmat4 transform = view_from_object(camera, instance.world_from_object);
         const std::array<glm::dvec4, 8> corners = corners_of(mesh.box, transform);
         if (outside(corners, clip)) continue;
-        if (open != nullptr && !may_touch(*open, corners, clip, {width, height})) continue;
+        const ScreenBox screen = screen_box(corners, clip, {width, height});
+        if (open != nullptr && !open->touches(screen.least, screen.most)) continue;
         double nearest = std::numeric_limits<double>::infinity();
         double sum = 0.0;
         for (const glm::dvec4& corner : corners) {
@@ -193,7 +193,7 @@ std::vector<Draw> DrawList::visible(const Camera& camera, int width, int height,
         }
         if (order == DrawOrder::back_to_front) nearest = sum / 8.0;
         const double determinant = glm::determinant(glm::dmat3(transform));
-        draws.push_back({static_cast<int>(i), instance.mesh, nearest, determinant < 0.0,
+        draws.push_back({static_cast<int>(i), instance.mesh, nearest, determinant < 0.0, screen,
                          row_of(transform, determinant)});
         draws.back().row.first_caster = static_cast<uint>(first_caster);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -11,12 +12,19 @@
 
 namespace kilolux {
 
+/// A part of the planes that a camera's picture is drawn to, with ends outside [pixel].
+struct ScreenBox {
+    glm::dvec2 least{-std::numeric_limits<double>::infinity()};
+    glm::dvec2 most{std::numeric_limits<double>::infinity()};
+};
+
 /// One instance to draw.
 struct Draw {
     int instance = 0;
     int mesh = 0;
     double depth = 0.0;     // sort key: least depth of its box [m], or its centre's (back to front)
     bool mirrored = false;  // negative determinant: front faces wind the other way
+    ScreenBox screen;       // holds its pixels; everything where its box reaches behind the camera
     InstanceRow row{};      // composed in double; its ids are numbered along the draws
 };
 

@@ -41,8 +41,8 @@ typedef struct Pixels {
 // VW neighbours of a row of the planes from (x, y) on.
 static inline Pixels row_pixels(View view, uint x, uint y) {
     Pixels pixels;
-    pixels.x = lane_to_float(lane_numbers + x) + 0.5f;
-    pixels.y = fv((float)(y + view.first_row) + 0.5f);
+    pixels.x = lane_to_float(lane_numbers + picture_column(view, x)) + 0.5f;
+    pixels.y = fv((float)picture_row(view, y) + 0.5f);
     pixels.first = y * view.stride + x;
 #if ORDERED_PIXELS
     pixels.in_row = true;
@@ -63,11 +63,11 @@ static inline Pixels ordered_pixels(View view, uint tile_x, uint tile_y,
                                     global const uchar* order) {
     Pixels pixels;
     UV code = KX_CONCAT(convert_, UV)(lane_load(order));
-    UV x = code % FINE_TILE + tile_x;
-    UV y = code / FINE_TILE + tile_y;
-    pixels.x = lane_to_float(x) + 0.5f;
-    pixels.y = lane_to_float(y + view.first_row) + 0.5f;
-    UV place = y * view.stride + x;
+    UV x = code % FINE_TILE;
+    UV y = code / FINE_TILE;
+    pixels.x = lane_to_float(x + picture_column(view, tile_x)) + 0.5f;
+    pixels.y = lane_to_float(y + picture_row(view, tile_y)) + 0.5f;
+    UV place = (y + tile_y) * view.stride + x + tile_x;
     lane_store(place, pixels.place);
     pixels.first = pixels.place[0];
     pixels.in_row = !lane_any(lane_mask(place != lane_numbers + pixels.first));
@@ -111,6 +111,6 @@ static inline ItemPlace place_in_planes(View view) {
 }
 
 static inline MASK within_width(View view, Pixels pixels) {
-    return lane_mask(pixels.x < fv((float)view.width));
+    return lane_mask(pixels.x < fv((float)picture_column(view, view.width)));
 }
 #endif

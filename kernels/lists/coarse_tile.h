@@ -12,8 +12,8 @@ typedef struct CoarseTile {
 static inline CoarseTile coarse_tile(View view, ClusterGrid grid, uint fine_tile) {
     uint tiles_x = fine_tiles_x(view);
     CoarseTile coarse;
-    coarse.column = fine_tile % tiles_x * FINE_TILE / grid.tile_width;
-    coarse.row = (fine_tile / tiles_x * FINE_TILE + view.first_row) / grid.tile_height;
+    coarse.column = picture_column(view, fine_tile % tiles_x * FINE_TILE) / grid.tile_width;
+    coarse.row = picture_row(view, fine_tile / tiles_x * FINE_TILE) / grid.tile_height;
     return coarse;
 }
 

@@ -45,8 +45,9 @@ static inline ShadowPick make_pick(Surface s, ShadingPoint p, ShadowSamples samp
     out.point = p;
     out.whole = luminance(load_radiance(samples.whole, view, pixels));
     out.rays = samples.rays;
-    uint tile_y = (at.y + view.first_row) / FINE_TILE;
-    out.tile = hash_of(hash_of(hash_of(samples.seed) ^ at.x / FINE_TILE) ^ tile_y);
+    uint tile_x = picture_column(view, at.x) / FINE_TILE;
+    uint tile_y = picture_row(view, at.y) / FINE_TILE;
+    out.tile = hash_of(hash_of(hash_of(samples.seed) ^ tile_x) ^ tile_y);
     return out;
 }
 

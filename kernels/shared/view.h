@@ -16,8 +16,9 @@ namespace kilolux {
 // Orthographic:  x_view =  px * ray.x + ray.y,       y_view =  py * ray.z + ray.w,
 //                z      = depth01 * depth.x + px * depth.y + py * depth.z + depth.w
 // depth.y and depth.z are 0 unless the near plane is oblique: 1/z is linear in screen space.
-// Planes may hold a band of the picture only: row y of a plane is the picture's row first_row + y,
-// and py counts in the picture, so that a pixel has the same bits in whatever band it lies.
+// Planes may hold a rectangle of the picture only, and several layers of it, one below the other:
+// see picture_column() and picture_row(). px and py count in the picture, so that a pixel has the
+// same bits in whatever planes it lies.
 SHARED_STRUCT(View) {
     float4 ray;
     float4 depth;
@@ -29,10 +30,22 @@ SHARED_STRUCT(View) {
     float4 view_from_world_y;
     float4 view_from_world_z;
     float4 camera_position;  // xyz: world [m]; only layouts that store world positions need it
-    uint first_row;  // of the picture, where the planes begin; `height` counts the planes' rows
-    uint unused0, unused1, unused2;
+    uint first_row;     // of the picture, where the planes begin; `height` counts the planes' rows
+    uint first_column;  // likewise; a multiple of 16; 0 in planes that OpenGL draws
+    uint layer_mask;  // bits of y that number the layer, where each has a power of two of rows; 0:
+                      // there is one
+    uint unused0;
 };
 SHARED_ASSERT(view_size, sizeof(View) == 128);
+
+// The picture's column and row of column x and row y of the planes.
+SHARED_FN uint picture_column(View view, uint x) { return x + view.first_column; }
+
+SHARED_FN uint picture_row(View view, uint y) { return (y & ~view.layer_mask) + view.first_row; }
+
+SHARED_FN uint rows_of_layer(View view) {
+    return view.layer_mask != 0u ? ~view.layer_mask + 1u : view.height;
+}
 
 // Depth z [m] of a pixel with depth01 at pixel coordinates (px, py), centres at +0.5.
 SHARED_FN FV view_depth(View view, FV px, FV py, FV depth01) {

@@ -96,8 +96,8 @@ static inline void touched_columns(TileWalk walk, TileBox box, uint first_row, u
     RowSpans s = {fv((float)(interval_first(box.columns) * TILE_WIDTH)),
                   fv((float)(interval_last(box.columns) * TILE_WIDTH + TILE_WIDTH - 1u))};
     s = touched_spans(walk.view, walk.triangles + (box.number & ~MASKED_TRIANGLE),
-                      fma(0.5f, walk.view.ray.x, walk.view.ray.y), rays_y(walk.view, y),
-                      rays_y(walk.view, y + (TILE_HEIGHT - 1u)), s);
+                      fma((float)walk.view.first_column + 0.5f, walk.view.ray.x, walk.view.ray.y),
+                      rays_y(walk.view, y), rays_y(walk.view, y + (TILE_HEIGHT - 1u)), s);
     MASK none = ~lane_mask(s.first <= s.last);
     UV first = lane_to_uint(lane_select(none, fv(0.0f), s.first)) / TILE_WIDTH;
     UV last = lane_to_uint(lane_select(none, fv(0.0f), s.last)) / TILE_WIDTH;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lays a lit layer over the light behind it: alpha * layer + (1 - alpha + alpha * t) * behind, with
-// the alpha of the material and what the surface transmits, t. Where alpha is 0, or is 1 with t 0,
-// the result has the bits of one of the two. One work-item has VW neighbours of a row.
+// Lays lit layers over the light behind them, one after the other:
+// alpha * layer + (1 - alpha + alpha * t) * behind, with the alpha of the material and what the
+// surface transmits, t. Where alpha is 0, or is 1 with t 0, the result has the bits of one of the
+// two. One work-item has VW neighbours of a row.
 #include "kernels/device/arguments.h"
 #include "kernels/device/gbuffer.h"
 #include "kernels/device/radiance.h"
@@ -38,23 +39,33 @@ static inline FV3 share_of_behind(GBuffer g, Pixels pixels, FV alpha) {
 #endif
 }
 
-kernel void blend_layer(GBUFFER_ARGS, SCENE_ARGS,
+kernel void blend_layer(GBUFFER_ARGS, SCENE_ARGS,         // of layers, from far to near
                         global const uint* restrict ids,  // [height][stride]: triangle + 1; 0: none
-                        global const float* restrict layer,  // [3][height][stride]
-                        global float* restrict radiance) {   // in, out [3][height][stride]
+                        global const float* restrict lit,  // [3][height][stride]
+                        View behind,                       // planes that hold the layers' rectangle
+                        global float* restrict radiance) {  // in, out [3][height][stride] of them
     ItemPlace at = place_in_planes(view);
-    if (!at.inside) return;
-    Pixels pixels = row_pixels(view, at.x, at.y);
-    UV id = lane_load(ids + pixels.first);
-    MASK shown = lane_mask(id != (UV)(0u));
-    if (!lane_any(shown)) return;
+    uint rows = rows_of_layer(view);
+    if (at.y >= rows) return;
     SurfaceScene scene = SCENE_OF_ARGS;
-    FV alpha = alpha_of_layer(scene, view, pixels, id, shown);
-    FV3 over = load_radiance(layer, view, pixels);
-    FV3 behind = load_radiance(radiance, view, pixels);
-    FV3 share = share_of_behind((GBuffer){gbuffer, layout, view, srgb}, pixels, alpha);
-    FV3 mixed =
-        fv3(blended(alpha, over.x, share.x, behind.x), blended(alpha, over.y, share.y, behind.y),
-            blended(alpha, over.z, share.z, behind.z));
-    store_radiance(radiance, view, pixels, select3(shown, mixed, behind));
+    Pixels to = row_pixels(behind, at.x + view.first_column - behind.first_column,
+                           at.y + view.first_row - behind.first_row);
+    bool has_light = false;  // rows beyond the picture have no layer
+    FV3 light = zero3();
+    for (uint y = at.y; y < view.height; y += rows) {
+        Pixels pixels = row_pixels(view, at.x, y);
+        UV id = lane_load(ids + pixels.first);
+        MASK shown = lane_mask(id != (UV)(0u));
+        if (!lane_any(shown)) continue;
+        if (!has_light) light = load_radiance(radiance, behind, to);
+        has_light = true;
+        FV alpha = alpha_of_layer(scene, view, pixels, id, shown);
+        FV3 over = load_radiance(lit, view, pixels);
+        FV3 share = share_of_behind((GBuffer){gbuffer, layout, view, srgb}, pixels, alpha);
+        FV3 mixed =
+            fv3(blended(alpha, over.x, share.x, light.x), blended(alpha, over.y, share.y, light.y),
+                blended(alpha, over.z, share.z, light.z));
+        light = select3(shown, mixed, light);
+    }
+    if (has_light) store_radiance(radiance, behind, to, light);
 }

@@ -23,8 +23,8 @@ static inline Pixels block_pixels(View view, uint x, uint y) {
     uint first_x = x / FINE_TILE * FINE_TILE + column;
     uint first_y = y - y % BLOCK_ROWS;
     Pixels pixels;
-    pixels.x = lane_to_float(lane_numbers % BLOCK_COLUMNS + first_x) + 0.5f;
-    pixels.y = lane_to_float(lane_numbers / BLOCK_COLUMNS + first_y + view.first_row) + 0.5f;
+    pixels.x = lane_to_float(lane_numbers % BLOCK_COLUMNS + picture_column(view, first_x)) + 0.5f;
+    pixels.y = lane_to_float(lane_numbers / BLOCK_COLUMNS + picture_row(view, first_y)) + 0.5f;
     pixels.first = first_y * view.stride + first_x;
     pixels.rows = min(view.height - min(first_y, view.height), (uint)BLOCK_ROWS);
     return pixels;

@@ -1,24 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tiles' triangles -> one layer of surfaces after the other, from far to near. A layer holds at
-// each pixel the farthest fragment that is nearer than the last layer's. Of fragments of equal
-// depth the one with the smaller triangle number counts as nearer, as in raster_triangles. One
-// work-item has VW neighbours of a row.
+// Tiles' triangles -> one layer of surfaces after the other, from far to near, of a rectangle of
+// the picture. A layer holds at each pixel the farthest fragment that is nearer than the last
+// layer's. Of fragments of equal depth the one with the smaller triangle number counts as nearer,
+// as in raster_triangles. Layers lie below each other in the planes of ids, each of `layer_rows`
+// rows, of which those beyond the rectangle are empty. One work-item has VW neighbours of a row.
 #include "kernels/device/arguments.h"
 #include "kernels/device/gbuffer.h"
 #include "kernels/surfaces/raster_tile.h"
 #include "kernels/surfaces/raster_triangle.h"
 
-// The opaque surface's key; the far plane's where there is none.
-kernel void raster_layers_begin(GBUFFER_ARGS,
-                                global float* restrict keys,  // out [height][stride]
-                                global uint* restrict ids) {  // out [height][stride]: 0
-    ItemPlace at = place_in_planes(view);
+// The key of the surface behind all layers; the far plane's where there is none.
+kernel void raster_layers_begin(
+    GBUFFER_ARGS,                 // what lies behind, in planes that hold the rectangle
+    View region,                  // the rectangle
+    global float* restrict keys,  // out [height][stride] of `region`
+    uint count,
+    global uint* restrict drawn) {  // out [count]: 0
+    ItemPlace at = place_in_planes(region);
+    if (at.x + at.y == 0u) {
+        for (uint i = 0; i < count; ++i) drawn[i] = 0u;
+    }
     if (!at.inside) return;
     GBuffer g = {gbuffer, layout, view, srgb};
-    Pixels pixels = row_pixels(view, at.x, at.y);
+    Pixels pixels = row_pixels(view, at.x + region.first_column - view.first_column,
+                               at.y + region.first_row - view.first_row);
     FV behind = far_key(view, pixels.x, pixels.y);
-    lane_store(fma(load_depth01(g, pixels), fv(near_from_far(view)), behind), keys + pixels.first);
-    lane_store((UV)(0u), ids + pixels.first);
+    lane_store(fma(load_depth01(g, pixels), fv(near_from_far(view)), behind),
+               keys + row_pixels(region, at.x, at.y).first);
 }
 
 static inline FV along(global const float* e, FV x, float y) {
@@ -39,18 +47,28 @@ static inline MASK decide_exactly(SurfaceScene scene, View view, uint number, MA
     return lane_load(out);
 }
 
+// The layer to draw, of LayerState of host/stages/surfaces/raster_layers.cpp. last_layer: the next
+// farther one, unless is_first: there is none. Both count in the planes.
+#define LAYER_ARGS uint layer_rows, uint layer, uint last_layer, uint is_first
+
 kernel void raster_layers(View view, SCENE_ARGS, TRIANGLE_LIST_ARGS(const),  // in any order
-                          uint is_first,
+                          LAYER_ARGS,
                           global float* restrict keys,    // in, out [height][stride]: of the layer
-                          global uint* restrict ids,      // in, out: triangle + 1; 0: none
-                          global uint* restrict drawn) {  // out [2]: pixels that have the layer,
-                                                          // and that may have more
+                          global uint* restrict ids,      // in, out [][layer_rows][stride]:
+                                                          // triangle + 1; 0: none
+                          global uint* restrict drawn) {  // in, out [][2]: pixels that have a
+                                                          // layer, and that may have more
     SurfaceScene scene = SCENE_OF_ARGS;
     ItemPlace at = place_in_planes(view);
-    if (!at.inside) return;
+    if (at.y >= layer_rows) return;
     Pixels pixels = row_pixels(view, at.x, at.y);
-    UV last_id = lane_load(ids + pixels.first);
-    MASK open = within_width(view, pixels);
+    global const uint* last_ids = ids + last_layer * layer_rows * view.stride;
+    ids += layer * layer_rows * view.stride;
+    drawn += 2u * layer;
+    UV last_id = (UV)(0u);
+    if (is_first == 0u) last_id = lane_load(last_ids + pixels.first);
+    MASK open = (MASK)(0);
+    if (at.inside) open = within_width(view, pixels);
     if (is_first == 0u) open &= lane_mask(last_id != (UV)(0u));
     if (!lane_any(open)) {
         lane_store((UV)(0u), ids + pixels.first);

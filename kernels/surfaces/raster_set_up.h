@@ -70,13 +70,15 @@ static inline ViewTriangles view_triangles(SurfaceScene scene, UV numbers, MASK 
     return out;
 }
 
+// The ray of the upper left corner of a pixel of the planes.
+static inline float2 corner_ray(View view, uint x, uint y) {
+    return (float2)(fma((float)(view.first_column + x), view.ray.x, view.ray.y),
+                    fma((float)(view.first_row + y), view.ray.z, view.ray.w));
+}
+
 // The largest |x| and |y| of the rays of the planes' pixels.
 static inline float2 ray_span(View view) {
-    float2 left_top = (float2)(view.ray.y, fma((float)view.first_row, view.ray.z, view.ray.w));
-    float2 right_bottom =
-        (float2)(fma((float)view.width, view.ray.x, view.ray.y),
-                 fma((float)(view.first_row + view.height), view.ray.z, view.ray.w));
-    return fmax(fabs(left_top), fabs(right_bottom));
+    return fmax(fabs(corner_ray(view, 0u, 0u)), fabs(corner_ray(view, view.width, view.height)));
 }
 
 // a x b, scaled so that the sign of its product with a ray is certain beyond +-1. `size`: the
@@ -236,10 +238,8 @@ static inline MASK outside_side(const FV3* seen, const FV* along, float most, fl
 }
 
 static inline MASK outside_view(View view, const FV3* seen) {
-    float2 low =
-        (float2)(view.ray.y, fma((float)(view.first_row + view.height), view.ray.z, view.ray.w));
-    float2 high = (float2)(fma((float)view.width, view.ray.x, view.ray.y),
-                           fma((float)view.first_row, view.ray.z, view.ray.w));
+    float2 low = corner_ray(view, 0u, view.height);
+    float2 high = corner_ray(view, view.width, 0u);
     FV x[3] = {seen[0].x, seen[1].x, seen[2].x};
     FV y[3] = {seen[0].y, seen[1].y, seen[2].y};
     return outside_side(seen, x, low.x, -1.0f) | outside_side(seen, x, high.x, 1.0f) |
@@ -254,7 +254,7 @@ static inline PixelBounds pixel_bounds(View view, const FV3* v) {
     FV3 at[3];
     for (uint i = 0; i < 3; ++i) {
         FV k = view.orthographic != 0u ? fv(1.0f) : keys.k[i];
-        at[i].x = (fma(v[i].x, k, fv(-view.ray.y))) * inv.x;
+        at[i].x = (fma(v[i].x, k, fv(-view.ray.y))) * inv.x - (float)view.first_column;
         at[i].y = (fma(v[i].y, k, fv(-view.ray.w))) * inv.y - (float)view.first_row;
     }
     FV x0 = min(min(at[0].x, at[1].x), at[2].x);

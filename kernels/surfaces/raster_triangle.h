@@ -27,7 +27,8 @@ static inline FV3 seen_vertex(View view, FV3 v) {
     return v;
 }
 
-// The y of the rays of a row of the planes, and of VW rows; the x of those of VW columns.
+// The y of the rays of a row of the planes, and of VW rows; the x of those of VW columns. Planes
+// that triangles are drawn to hold one layer.
 static inline float ray_y(View view, uint y) {
     return fma((float)(y + view.first_row) + 0.5f, view.ray.z, view.ray.w);
 }
@@ -35,7 +36,7 @@ static inline FV rays_y(View view, UV y) {
     return fma(lane_to_float(y + view.first_row) + 0.5f, fv(view.ray.z), fv(view.ray.w));
 }
 static inline FV ray_x(View view, UV x) {
-    return fma(lane_to_float(x) + 0.5f, fv(view.ray.x), fv(view.ray.y));
+    return fma(lane_to_float(x + view.first_column) + 0.5f, fv(view.ray.x), fv(view.ray.y));
 }
 
 // A triangle's vertices as the eye sees them, and the sign of its determinant, in integers.
@@ -78,7 +79,7 @@ static inline float near_from_far(View view) {
 
 // No pixel's key at the near plane is smaller.
 static inline float least_near_key(View view) {
-    float across = view.depth.y * (float)view.width;
+    float across = view.depth.y * (float)(view.first_column + view.width);
     float down = view.depth.z * (float)(view.first_row + view.height);
     float slack = SURE_SHARE * (fabs(across) + fabs(down) + fabs(view.depth.w));
     float q = view.orthographic != 0u ? -(view.depth.w + fmax(across, 0.0f) + fmax(down, 0.0f))

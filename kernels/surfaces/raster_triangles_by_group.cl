@@ -65,7 +65,8 @@ static inline RasterPixel first_pixel(View view, uint tile_x, uint tile_y, uint 
     p.y = tile_y + p.tile_y;
     p.ray_x = ray_x(view, p.x);
     p.ray_y = ray_y(view, p.y);
-    p.key = far_key(view, (float)p.x + 0.5f, (float)(p.y + view.first_row) + 0.5f);
+    p.key = far_key(view, (float)(p.x + view.first_column) + 0.5f,
+                    (float)(p.y + view.first_row) + 0.5f);
     p.nearest = p.key + near_from_far(view);
     p.id = 0u;
     return p;

@@ -24,7 +24,7 @@ static inline void add_fragments(Canvas c, Strip s, MASK wins, FV key, Fragments
     float keys[VW], x[VW], y[VW];
     lane_store(lane_bits(wins) & 1u, flag);
     lane_store(key, keys);
-    lane_store(centres_x(c.tile, s), x);
+    lane_store(centres_x(*c.view, c.tile, s), x);
     lane_store(centres_y(*c.view, c.tile, s), y);
     uint count = f->count;
 #pragma unroll

@@ -49,8 +49,8 @@ typedef struct Strip {
 static inline uint place_of(Strip s) { return s.y * STRIP_STRIDE + s.x * STRIP_ROWS; }
 
 // The pixels' centres in the picture.
-static inline FV centres_x(const Tile* tile, Strip s) {
-    return lane_to_float(strip_lanes_x + (tile->x + s.x)) + 0.5f;
+static inline FV centres_x(View view, const Tile* tile, Strip s) {
+    return lane_to_float(strip_lanes_x + (tile->x + s.x + view.first_column)) + 0.5f;
 }
 static inline FV centres_y(View view, const Tile* tile, Strip s) {
     return lane_to_float(strip_lanes_y + (tile->y + s.y * STRIP_ROWS + view.first_row)) + 0.5f;
@@ -59,14 +59,14 @@ static inline FV centres_y(View view, const Tile* tile, Strip s) {
 static inline void clear_tile(View view, Tile* tile) {
     Strip s = {0, 0};
     for (s.x = 0; s.x < TILE_WIDTH + STRIP_COLUMNS; s.x += STRIP_COLUMNS) {
-        FV x = fma(centres_x(tile, s), fv(view.ray.x), fv(view.ray.y));
+        FV x = fma(centres_x(view, tile, s), fv(view.ray.x), fv(view.ray.y));
         lane_store(x, tile->ray_x + s.x * STRIP_ROWS);
     }
     for (s.y = 0; s.y < TILE_STRIPS; ++s.y) {
         FV py = centres_y(view, tile, s);
         lane_store(fma(py, fv(view.ray.z), fv(view.ray.w)), tile->ray_y[s.y]);
         for (s.x = 0; s.x < TILE_WIDTH + STRIP_COLUMNS; s.x += STRIP_COLUMNS) {
-            lane_store(far_key(view, centres_x(tile, s), py), tile->key + place_of(s));
+            lane_store(far_key(view, centres_x(view, tile, s), py), tile->key + place_of(s));
             lane_store((UV)(0u), tile->id + place_of(s));
         }
     }
@@ -199,7 +199,7 @@ static inline MASK wins_cut(Canvas c, uint number, const StripEdges* edges, Stri
     // Background has the number 0 - 1, which is not smaller.
     MASK first =
         lane_mask(key == old) & lane_mask((UV)(number) < lane_load(c.tile->id + place_of(s)) - 1u);
-    FV far = far_key(*c.view, centres_x(c.tile, s), centres_y(*c.view, c.tile, s));
+    FV far = far_key(*c.view, centres_x(*c.view, c.tile, s), centres_y(*c.view, c.tile, s));
     MASK behind_near = lane_mask(key <= far + near_from_far(*c.view));
     return covered(c, number, edges, s) & (lane_mask(key > old) | first) & behind_near;
 }

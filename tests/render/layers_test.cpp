@@ -251,6 +251,82 @@ TEST(Layers, AreCounted) {
     EXPECT_EQ(frame.stats.layer_tiles, kWidth * kHeight / (FINE_TILE * FINE_TILE) + 1u);
 }
 
+// A lit wall behind small panes in one corner of the view.
+Scene corner_panes(int count, bool with_clear_pane) {
+    Scene scene;
+    add_pane(scene, {{0, 0, -1}, {9, 0, 0}, {0, 9, 0}, {0.8f, 0.6f, 0.4f, 1.0f}},
+             AlphaMode::opaque);
+    for (int i = 0; i < count; ++i) {
+        const double x = 0.9 + 0.05 * i, z = 0.1 * i;
+        const Pane pane{{x, -0.5, z}, {0.2, 0, 0.05}, {0, 0.3, 0}, {0.3f, 0.6f, 0.9f, 0.4f}};
+        add_pane(scene, pane, AlphaMode::blend);
+    }
+    add_pane(scene, {{0.9, -0.4, 0.5}, {0.15, 0, 0}, {0, 0.15, 0}, {1, 1, 1, 1}},
+             AlphaMode::opaque);
+    if (with_clear_pane) {
+        add_pane(scene, {{0, 0, 2}, {9, 0, 0}, {0, 9, 0}, {1, 1, 1, 0}}, AlphaMode::blend);
+    }
+    for (Material& material : scene.materials) material.unlit = false;
+    for (int i = 0; i < 12; ++i) {
+        SceneLight lamp;
+        lamp.position = {0.3 * i - 1.5, 0.2 * (i % 5) - 0.6, 0.5 + 0.1 * i};
+        lamp.intensity = glm::vec3(0.3f, 0.1f * static_cast<float>(i % 4), 0.2f);
+        lamp.range = 3.0f;
+        scene.lights.push_back(lamp);
+    }
+    return scene;
+}
+
+// A clear pane before everything changes no bit, but makes the rectangle of all layers the view.
+TEST(Layers, InARectangleHaveTheBitsOfTheWholeView) {
+    for (const Shadows shadows : {Shadows::off, Shadows::exact, Shadows::sampled}) {
+        for (const RendererKind kind : {RendererKind::deferred, RendererKind::deferred_all}) {
+            RenderSettings settings = layer_settings(kind);
+            settings.geometry = Geometry::compute;
+            settings.shadows = shadows;
+            settings.opaque_shadows = true;
+            settings.shadow_rays = 1;
+            settings.want.counts = true;
+            const Frame part = render_panes(corner_panes(3, false), settings);
+            const Frame whole = render_panes(corner_panes(3, true), settings);
+            EXPECT_TRUE(part.radiance == whole.radiance) << static_cast<int>(shadows);
+            EXPECT_EQ(part.stats.layers, 3u);
+            EXPECT_EQ(whole.stats.layers, 4u);
+            EXPECT_LT(part.stats.layer_tiles, whole.stats.layer_tiles / 3);
+        }
+    }
+}
+
+// A frame draws as many layers at once as the last one had, and keeps what did not change.
+TEST(Layers, OfEachFrameAreThoseOfAFirstOne) {
+    const Scene scene = corner_panes(11, false);
+    RenderSettings settings = layer_settings();
+    settings.lights.count = 60;
+    settings.geometry = Geometry::compute;
+    settings.want.display = true;
+    Renderer renderer(scene, settings);
+    std::vector<std::uint8_t> last;
+    const auto camera_at = [](double x) {
+        return look_at({x, 0.0, 5.0}, {x, 0, 0}, {0, 1, 0}, 0.3);
+    };
+    struct Step {
+        double x, time;
+        std::uint64_t least_layers;
+    };
+    for (const Step& step : {Step{-2.0, 0.0, 0}, Step{1.0, 0.0, 5}, Step{1.0, 0.0, 5},
+                             Step{1.0, 1.5, 5}, Step{-0.3, 1.5, 1}, Step{1.3, 1.5, 9}}) {
+        const Frame frame = renderer.render(camera_at(step.x), step.time);
+        const Frame first = Renderer(scene, settings).render(camera_at(step.x), step.time);
+        EXPECT_GE(first.stats.layers, step.least_layers);
+        EXPECT_EQ(frame.stats.layers, first.stats.layers);
+        EXPECT_EQ(frame.stats.layer_pixels, first.stats.layer_pixels);
+        EXPECT_TRUE(frame.radiance == first.radiance) << step.x << " at " << step.time;
+        EXPECT_TRUE(frame.display == first.display) << step.x << " at " << step.time;
+        EXPECT_FALSE(frame.display == last) << "the lights stand still";
+        if (step.time > 0.0 || step.x < 0.0) last = frame.display;
+    }
+}
+
 TEST(Layers, TakeNoStageOfASceneWithoutThem) {
     const RenderSettings settings = small_settings(kWidth, kHeight, 10);
     EXPECT_FALSE(has_stage(render_once(make_generated_scene("grid"), settings), "raster_layers"));

@@ -29,7 +29,7 @@ BinPixels::BinPixels(const Gpu& gpu, const Tuning& tuning, const KernelFeatures&
       occupied_(gpu, kBinPixelsStage) {}
 
 ActiveClusters BinPixels::enqueue(const GBuffer& gbuffer, const ClusterGrid& grid,
-                                  StageTimer& timer) {
+                                  StageTimer& timer, const DeviceArray<std::uint8_t>& occupied) {
     const View& view = gbuffer.view;
     ActiveClusters out;
     out.grid = grid;
@@ -41,11 +41,14 @@ ActiveClusters BinPixels::enqueue(const GBuffer& gbuffer, const ClusterGrid& gri
     out.clusters = clusters_.entries<ActiveCluster>();
     out.capacity = clusters_.capacity();
     out.order = order_.reserve(std::size_t{FINE_TILE_PIXELS} * out.tile_count);
-    out.occupied = occupied_.reserve(grid.cluster_count);
+    const bool alone = occupied.buffer()() == nullptr;
+    out.occupied = alone ? occupied_.reserve(grid.cluster_count) : occupied;
     const DeviceArray<uint> counts = clusters_.counts(out.tile_count);
     const WorkSize tiles = groups(out.tile_count, tuning_.tile_group);
-    clear_.enqueue(items(grid.cluster_count, tuning_.light_group), timer, grid.cluster_count,
-                   out.occupied);
+    if (alone) {
+        clear_.enqueue(items(grid.cluster_count, tuning_.light_group), timer, grid.cluster_count,
+                       out.occupied);
+    }
     count_.enqueue(tiles, timer, gbuffer, grid, counts, out.occupied);
     out.offsets = clusters_.enqueue_offsets(out.tile_count, timer);
     fill_.enqueue(tiles, timer, gbuffer, out);

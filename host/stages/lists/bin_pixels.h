@@ -22,8 +22,10 @@ class BinPixels {
 
     BinPixels(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
-    /// Enqueues only.
-    ActiveClusters enqueue(const GBuffer& gbuffer, const ClusterGrid& grid, StageTimer& timer);
+    /// `occupied`: of the same grid, where the clusters are marked beside those of other pixels;
+    /// else they are marked alone. Enqueues only.
+    ActiveClusters enqueue(const GBuffer& gbuffer, const ClusterGrid& grid, StageTimer& timer,
+                           const DeviceArray<std::uint8_t>& occupied = {});
 
     /// Active clusters of the last enqueue: on the device; on the host, which blocks.
     DeviceArray<std::uint64_t> total() const { return clusters_.total(); }

@@ -20,10 +20,12 @@ BlendLayer::BlendLayer(const Gpu& gpu, const Tuning& tuning, const KernelFeature
               kBlendLayerStage, "blend_layer") {}
 
 void BlendLayer::enqueue(const DeviceArray<uint>& ids, const SurfaceBuffers& scene,
-                         const GBuffer& surfaces, const Radiance& layer, const Radiance& behind,
+                         const GBuffer& surfaces, const Radiance& lit, const Radiance& behind,
                          StageTimer& timer) {
-    kernel_.enqueue(kernel_.pixel_items(layer.view, tuning_.shade_rows), timer, surfaces, scene,
-                    ids, layer.planes, behind.planes);
+    View one = surfaces.view;
+    one.height = rows_of_layer(one);
+    kernel_.enqueue(kernel_.pixel_items(one, tuning_.shade_rows), timer, surfaces, scene, ids,
+                    lit.planes, behind.view, behind.planes);
 }
 
 }  // namespace kilolux

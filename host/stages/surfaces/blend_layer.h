@@ -10,17 +10,18 @@ namespace kilolux {
 
 inline constexpr StageInfo kBlendLayerStage = {"blend_layer", StageGroup::picture};
 
-/// Lays the light of surfaces that blend over the light behind them, by their materials' alpha and
-/// what they transmit.
+/// Lays the light of surfaces that blend over the light behind them, layer after layer from far to
+/// near, by their materials' alpha and what they transmit.
 class BlendLayer {
  public:
     BlendLayer(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
                const SurfaceFeatures& surfaces);
 
-    /// `layer`, the light of `surfaces`, over `behind`, at the pixels of `ids`, which number the
-    /// triangles of `scene`'s instances. Enqueues only.
+    /// `lit`, the light of the layers `surfaces`, over `behind`, at the pixels of `ids`, which
+    /// number the triangles of `scene`'s instances. The planes of `behind` hold the layers'
+    /// rectangle. Enqueues only.
     void enqueue(const DeviceArray<uint>& ids, const SurfaceBuffers& scene, const GBuffer& surfaces,
-                 const Radiance& layer, const Radiance& behind, StageTimer& timer);
+                 const Radiance& lit, const Radiance& behind, StageTimer& timer);
 
  private:
     Tuning tuning_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
 #include "host/gpu/stage_info.h"
@@ -10,26 +12,37 @@ namespace kilolux {
 
 inline constexpr StageInfo kRasterLayersStage = {"raster_layers", StageGroup::surfaces};
 
+/// Layers of triangle ids, from far to near, one below the other.
+struct LayerIds {
+    DeviceArray<uint> ids;  // [view.height][view.stride], as RasterTriangles has them
+    View view{};            // of all layers, whether or not they show anything
+};
+
+/// How many layers there are in planes, and the first `count` of them.
+inline uint layer_count(const View& view) { return view.height / rows_of_layer(view); }
+View first_layers(const View& view, uint count);
+
 /// Draws surfaces that blend over others as triangle ids, layer by layer from far to near.
 class RasterLayers {
  public:
     static constexpr std::size_t kPixelBytes = sizeof(float) + sizeof(uint);  // a key and an id
+    static constexpr std::size_t kMostLayers = 8;                             // of an enqueue()
 
     RasterLayers(const Gpu& gpu, const Tuning& tuning);
 
-    /// Starts anew: the next enqueue() draws the farthest layer in front of `opaque`. Enqueues
-    /// only.
-    void begin(const GBuffer& opaque, StageTimer& timer);
+    /// Starts anew: the next enqueue() draws the farthest layers in front of `opaque`, in the
+    /// rectangle `region` of its planes. Enqueues only.
+    void begin(const GBuffer& opaque, const View& region, std::size_t layers, StageTimer& timer);
 
-    /// ids[view.height][view.stride] of the next layer, as RasterTriangles has them. `lists`: of
-    /// the triangles of `scene`'s instances that blend. Enqueues only; valid until the next call.
-    DeviceArray<uint> enqueue(const SurfaceBuffers& scene, const TriangleLists& lists,
-                              StageTimer& timer);
+    /// At most as many layers as begin() has asked for; fewer where planes of the size of `opaque`
+    /// have no room for them, but at least one. `lists`: of the triangles of `scene`'s instances
+    /// that blend, in `region`. Enqueues only; valid until the next call.
+    LayerIds enqueue(const SurfaceBuffers& scene, const TriangleLists& lists, StageTimer& timer);
 
-    /// The last layer.
+    /// The last layers.
     struct Drawn {
-        std::uint64_t pixels = 0;  // that it covers; 0: there was none
-        bool may_go_on = false;    // else it was the nearest
+        std::vector<std::uint64_t> pixels;  // of each that covers any
+        bool may_go_on = false;             // else the nearest is among them
     };
     /// Blocks.
     Drawn drawn() const;
@@ -41,7 +54,7 @@ class RasterLayers {
     Kernel begin_, draw_;
     GrowingArray<float> keys_;
     GrowingArray<uint> ids_, drawn_;
-    View view_{};
+    View region_{}, layers_{};
     bool is_first_ = true;
 };
 
