@@ -115,6 +115,7 @@ struct CoarseLists {
     DeviceArray<uint> offsets;  // [cluster_count + 1]
     LightIndexBytes lists;      // [capacity] indices
     uint capacity = 0;
+    DeviceArray<std::uint64_t> total;  // indices, whether or not there was room
 
     void each(auto&& set) const {  // COARSE_LIST_ARGS
         set("coarse_offsets", offsets);

@@ -51,7 +51,7 @@ void check_input(const ClusterGrid& grid, const View& view) {
         return size >= FINE_TILE && std::uint64_t{tiles} * size >= pixels;
     };
     const std::uint64_t columns = std::uint64_t{view.first_column} + view.width;
-    // Layers may have empty rows below the picture.
+    // Layers may have rows without pixels below the grid.
     const std::uint64_t rows =
         std::uint64_t{view.first_row} + (view.layer_mask != 0 ? 1 : view.height);
     const std::uint64_t clusters = std::uint64_t{grid.tiles_x} * grid.tiles_y * grid.slices;

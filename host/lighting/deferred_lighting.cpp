@@ -21,11 +21,17 @@ Radiance DeferredLighting::enqueue(const LightingInput& input, StageTimer& timer
     if (visibility_) check_input(input.shadows, input.gbuffer.view);
     lists_ = {};  // arrays that grow must not be held twice
     seen_ = {};
-    lists_ = input.whole ? light_lists_.enqueue_within(*input.whole, input.gbuffer, timer)
-                         : light_lists_.enqueue(input.lights, input.gbuffer, input.grid, timer);
+    lists_ = input.others ? light_lists_.enqueue_sharing(*input.others, input.gbuffer, timer)
+                          : light_lists_.enqueue(input.lights, input.gbuffer, input.grid, timer);
     if (visibility_) seen_ = visibility_->enqueue(lists_, input.gbuffer, input.shadows, timer);
     return shade_.enqueue(lists_.at(input.gbuffer), timer,
                           {seen_.words, seen_.samples, input.shadows});
+}
+
+void DeferredLighting::forget() {
+    lists_ = {};
+    seen_ = {};
+    light_lists_.forget();
 }
 
 bool DeferredLighting::fits(StageTimer& timer) { return light_lists_.fits(timer); }

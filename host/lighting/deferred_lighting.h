@@ -15,8 +15,8 @@ struct LightingInput {
     GBuffer gbuffer;
     LightInput lights;
     ClusterGrid grid{};
-    ShadowInput shadows{};                // with KernelFeatures::shadows
-    const ListedLights* whole = nullptr;  // the pixels are MorePixels of these lists
+    ShadowInput shadows{};                 // with KernelFeatures::shadows
+    const ListedLights* others = nullptr;  // the pixels are MorePixels of these lists
 };
 
 /// Lights a G-buffer with the lights of each pixel's list: LightLists, Visibility with shadows,
@@ -50,6 +50,9 @@ class DeferredLighting {
 
     /// Radiance that falls in from everywhere.
     void set_ambient(float ambient);
+
+    /// Drops the last lists, see LightLists::forget().
+    void forget();
 
     LightLists& light_lists() { return light_lists_; }
     const LightLists& light_lists() const { return light_lists_; }

@@ -30,45 +30,52 @@ ListedLights LightLists::enqueue(const LightInput& input, const GBuffer& gbuffer
                                  const MorePixels& more) {
     check_input(gbuffer);
     check_input(grid, gbuffer.view);
-    return renewed({gbuffer.version, input.version, input.seed, grid}, [&] {
+    if (more.maker) more.maker->clusters_.reset();
+    const std::uint64_t more_version = more.maker ? more.gbuffer.version : 0;
+    return kept_or_made({gbuffer.version, more_version, input.version, input.seed, grid}, [&] {
         const bool is_kept = is_binned(gbuffer, grid);
         const ActiveClusters active = active_of(gbuffer, grid, {}, timer);
-        if (more.lists) {
-            if (!is_kept) more.lists->binned_version_ = 0;  // `occupied` was cleared
-            more.lists->find_clusters(more.gbuffer, grid, active.occupied, timer);
+        if (more.maker) {
+            if (!is_kept) more.maker->binned_version_ = 0;  // `occupied` was cleared
+            more.maker->find_clusters(more.gbuffer, grid, active.occupied, timer);
         }
         const CoarseLighting coarse =
             coarse_.enqueue(input, gbuffer.view, grid, timer,
                             everywhere_ ? DeviceArray<std::uint8_t>() : active.occupied);
-        coarse_total_ = coarse_.total();
-        is_within_ = false;
+        shares_coarse_ = false;
         return refined(coarse, active, gbuffer, timer);
     });
 }
 
-ListedLights LightLists::enqueue_within(const ListedLights& whole, const GBuffer& gbuffer,
-                                        StageTimer& timer) {
+ListedLights LightLists::enqueue_sharing(const ListedLights& others, const GBuffer& gbuffer,
+                                         StageTimer& timer) {
     check_input(gbuffer);
-    check_input(whole.grid, gbuffer.view);
-    return renewed({gbuffer.version, whole.version, 0, whole.grid}, [&] {
-        // The whole's lists may be kept ones: then these are made again, of the same clusters.
-        if (!found_) find_clusters(gbuffer, whole.grid, whole.clusters.occupied, timer);
-        const ActiveClusters active = *std::exchange(found_, std::nullopt);
-        coarse_total_ = whole.coarse_total;
-        is_within_ = true;
-        return refined({whole.lights, whole.boxes, whole.coarse}, active, gbuffer, timer);
+    check_input(others.grid, gbuffer.view);
+    return kept_or_made({gbuffer.version, 0, others.version, 0, others.grid}, [&] {
+        // Where the others were kept, nobody has asked for the clusters: they are as they were.
+        if (!clusters_) find_clusters(gbuffer, others.grid, others.clusters.occupied, timer);
+        const ActiveClusters active = *std::exchange(clusters_, std::nullopt);
+        shares_coarse_ = true;
+        return refined({others.lights, others.boxes, others.coarse}, active, gbuffer, timer);
     });
+}
+
+void LightLists::forget() {
+    made_.reset();
+    clusters_.reset();
+    active_ = {};
+    binned_version_ = 0;
 }
 
 void LightLists::find_clusters(const GBuffer& gbuffer, const ClusterGrid& grid,
                                const DeviceArray<std::uint8_t>& occupied, StageTimer& timer) {
     made_.reset();
     if (needs_room_) grow();
-    found_ = active_of(gbuffer, grid, occupied, timer);
+    clusters_ = active_of(gbuffer, grid, occupied, timer);
 }
 
 template <typename Make>
-ListedLights LightLists::renewed(const ListSource& source, const Make& make) {
+ListedLights LightLists::kept_or_made(const ListSource& source, const Make& make) {
     if (made_ && is_checked_ && source.matches(made_of_)) return *made_;
     made_.reset();  // arrays that grow must not be held twice
     is_checked_ = false;
@@ -84,8 +91,8 @@ bool LightLists::fits(StageTimer& timer) {
         gpu_.queue.finish();
         return true;
     }
-    count_.enqueue({made_->coarse_total, bin_.total(), refine_.total()}, made_->clusters,
-                   !is_within_, timer);
+    count_.enqueue({made_->coarse.total, bin_.total(), refine_.total()}, made_->clusters,
+                   !shares_coarse_, timer);
     counts_ = count_.read();
     is_checked_ = is_complete(*made_);
     if (is_checked_) {
@@ -94,7 +101,7 @@ bool LightLists::fits(StageTimer& timer) {
         return true;
     }
     needs_room_ = true;
-    has_coarse_ = counts_.coarse_pairs <= made_->coarse.capacity;
+    had_coarse_room_ = shares_coarse_ || counts_.coarse_pairs <= made_->coarse.capacity;
     made_.reset();
     active_ = {};
     binned_version_ = 0;
@@ -102,8 +109,9 @@ bool LightLists::fits(StageTimer& timer) {
 }
 
 bool ListSource::matches(const ListSource& other) const {
-    return gbuffer != 0 && lights != 0 && gbuffer == other.gbuffer && lights == other.lights &&
-           seed == other.seed && std::memcmp(&grid, &other.grid, sizeof grid) == 0;
+    return gbuffer != 0 && lights != 0 && gbuffer == other.gbuffer && more == other.more &&
+           lights == other.lights && seed == other.seed &&
+           std::memcmp(&grid, &other.grid, sizeof grid) == 0;
 }
 
 bool LightLists::is_complete(const ListedLights& lists) const {
@@ -115,7 +123,7 @@ bool LightLists::is_complete(const ListedLights& lists) const {
 
 void LightLists::grow() {
     needs_room_ = false;
-    const bool coarse = has_coarse_ || coarse_.fits(counts_.coarse_pairs);
+    const bool coarse = had_coarse_room_ || coarse_.fits(counts_.coarse_pairs);
     const bool active = bin_.fits(counts_.active_clusters);
     // The need of each is known only once those before are complete.
     if (coarse && active && refine_.fits(counts_.refine_tests) && has_cuts_) {
@@ -146,8 +154,7 @@ ListedLights LightLists::refined(const CoarseLighting& coarse, const ActiveClust
     if (has_cuts_) {
         lists = cut_->enqueue({gbuffer, coarse.lights, active, bin_.total(), lists}, timer);
     }
-    return {active.grid,   coarse.lights, coarse.boxes, coarse.lists,
-            coarse_total_, active,        lists,        0};
+    return {active.grid, coarse.lights, coarse.boxes, coarse.lists, active, lists, 0};
 }
 
 PixelLists LightLists::at_pixel(const ListedLights& lists, const View& view, uint x, uint y,

@@ -18,7 +18,6 @@ struct ListedLights {
     PreparedLights lights;
     ClusterBoxes boxes;
     CoarseLists coarse;
-    DeviceArray<std::uint64_t> coarse_total;  // pairs of coarse lists
     ActiveClusters clusters;
     RefinedLists refined;
     std::uint64_t version = 0;  // the same only where the lists are; 0: none
@@ -29,8 +28,10 @@ struct ListedLights {
 
 /// The versions of the inputs that lists were made from.
 struct ListSource {
-    std::uint64_t gbuffer = 0, lights = 0;  // versions; 0: not known
-    uint seed = 0;                          // of random ranges
+    std::uint64_t gbuffer = 0;  // version; 0: not known
+    std::uint64_t more = 0;     // that of more pixels; 0: there are none
+    std::uint64_t lights = 0;   // version; 0: not known
+    uint seed = 0;              // of random ranges
     ClusterGrid grid{};
 
     /// Whether both are known and the same.
@@ -39,10 +40,10 @@ struct ListSource {
 
 class LightLists;
 
-/// Pixels beside those of lists, which need the coarse lists of their clusters, too.
+/// Further pixels, whose clusters coarse lists must cover, too.
 struct MorePixels {
-    LightLists* lists = nullptr;  // whose enqueue_within() takes them; null: there are none
-    GBuffer gbuffer;
+    LightLists* maker = nullptr;  // whose enqueue_sharing() will get them; null: there are none
+    GBuffer gbuffer;              // its version is known where that of the first pixels is
 };
 
 /// The lists that light one pixel, on the host.
@@ -74,13 +75,17 @@ class LightLists {
 
     /// Enqueues the stages. Active clusters are kept while gbuffer.version and the grid stay, lists
     /// while input.version and its seed do, too. Valid until the next call. Throws Error when the
-    /// device cannot hold the lists. `more`: equal versions of `gbuffer` are equal ones of theirs.
+    /// device cannot hold the lists.
     ListedLights enqueue(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
                          StageTimer& timer, const MorePixels& more = {});
 
-    /// The same for the MorePixels of `whole`, from its coarse lists on.
-    ListedLights enqueue_within(const ListedLights& whole, const GBuffer& gbuffer,
-                                StageTimer& timer);
+    /// Lists of the further pixels that the call had which returned `others`; uses its coarse
+    /// lists.
+    ListedLights enqueue_sharing(const ListedLights& others, const GBuffer& gbuffer,
+                                 StageTimer& timer);
+
+    /// Drops the last lists: those of other makers may grow only where nobody holds them.
+    void forget();
 
     /// False where the last enqueue()'s lists had no room; the next one makes it. Waits for the
     /// device: asked once a frame, when the caller has nothing more to enqueue.
@@ -91,7 +96,8 @@ class LightLists {
     ListedLights run(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
                      StageTimer& timer);
 
-    /// Counts of the last lists that fitted; without sums of those of enqueue_within().
+    /// Counts of the last lists that fitted; of enqueue_sharing() without the sums
+    /// over clusters.
     const PairCounts& counts() const { return counts_; }
 
     /// What `lists` have for the pixel (x, y) of the G-buffer, which has depth z > 0. Blocks.
@@ -102,7 +108,7 @@ class LightLists {
 
  private:
     template <typename Make>
-    ListedLights renewed(const ListSource& source, const Make& make);
+    ListedLights kept_or_made(const ListSource& source, const Make& make);
     void find_clusters(const GBuffer& gbuffer, const ClusterGrid& grid,
                        const DeviceArray<std::uint8_t>& occupied, StageTimer& timer);
     bool is_binned(const GBuffer& gbuffer, const ClusterGrid& grid) const;
@@ -122,13 +128,12 @@ class LightLists {
     std::optional<CutLightTree> cut_;  // with a light tree
     CountPairs count_;
     PairCounts counts_{};
-    uint refine_room_ = 0;     // entries, of the last enqueue()
-    bool has_cuts_ = false;    // likewise
-    bool needs_room_ = false;  // more than there is
-    bool has_coarse_ = false;  // not of the coarse lists
-    DeviceArray<std::uint64_t> coarse_total_;
-    bool is_within_ = false;               // the last lists are those of enqueue_within()
-    std::optional<ActiveClusters> found_;  // of find_clusters()
+    uint refine_room_ = 0;                    // entries, of the last enqueue()
+    bool has_cuts_ = false;                   // likewise
+    bool needs_room_ = false;                 // more than there is
+    bool had_coarse_room_ = false;            // then
+    bool shares_coarse_ = false;              // the last lists are those of enqueue_sharing()
+    std::optional<ActiveClusters> clusters_;  // of find_clusters()
     // Of the last clusters that were complete.
     std::uint64_t binned_version_ = 0;
     ClusterGrid binned_grid_{};

@@ -39,8 +39,8 @@ SurfaceValues surface_values(const Gpu& gpu, const cl::Buffer& planes, std::size
 std::size_t place_behind(const View& behind, const View& view, std::size_t place) {
     const auto x = static_cast<uint>(place % view.stride);
     const auto y = static_cast<uint>(place / view.stride);
-    return std::size_t{picture_row(view, y) - behind.first_row} * behind.stride +
-           picture_column(view, x) - behind.first_column;
+    return std::size_t{plane_row(behind, picture_row(view, y))} * behind.stride +
+           plane_column(behind, picture_column(view, x));
 }
 
 // Puts what a layer shows at place `from` in place of what lies behind.
@@ -314,7 +314,7 @@ void BandReader::probe_layers(const LastSample& last, uint x, uint y, PixelProbe
         const View& view = stack.surfaces.view;
         StageTimer untimed;
         const cl::Buffer planes = layer_decoder().enqueue(stack.surfaces, untimed);
-        for (std::size_t layer = 0; layer < stack.pixels.size(); ++layer) {
+        for (std::size_t layer = 0; layer < stack.pixel_counts.size(); ++layer) {
             const auto pixel =
                 stack.place(layer, picture_column(behind, x), picture_row(behind, y));
             if (!pixel) return;

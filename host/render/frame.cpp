@@ -144,7 +144,7 @@ void render_band(Pipeline& p, const Shot& shot, const LightInput& lights, const 
                  Frame& frame, Measured out) {
     FrameStages& stages = p.current_stages();
     LitBand& lit = p.last.band;
-    bool is_read = false;
+    bool is_finished = false;
     p.samples.begin_band();
     while (const auto next = p.samples.next()) {
         check_interrupt();
@@ -162,21 +162,20 @@ void render_band(Pipeline& p, const Shot& shot, const LightInput& lights, const 
             stages.shade(sample, lit, out);
             p.environment.enqueue(lit, p.timer);
             stages.blend(lit, p.environment, out);
-            is_read = p.samples.is_one() && stages.may_blend_all();
-            if (is_read) finish_picture(p, lit, frame);
+            is_finished = p.samples.is_one() && stages.expects_no_more_layers();
+            if (is_finished) finish_picture(p, lit, frame);
             room = stages.room(lit, out);  // waits for the device
             if (room.surfaces) before = with_surfaces;
         }
         p.reader.count({lit, stages, sample.camera}, out.stats);
         if (stages.blend_rest(lit, p.environment, out)) {
-            is_read = false;
-            lit.shown.reset();
-            lit.display.reset();
+            is_finished = false;
+            lit.drop_picture();
         }
         out.stats.shaded_display = sample.display.has_value();
         if (!p.samples.is_one()) p.samples.add(lit.light, out);
     }
-    if (!is_read) {
+    if (!is_finished) {
         lit.light = p.samples.mean(lit.light, p.timer);
         finish_picture(p, lit, frame);
     }

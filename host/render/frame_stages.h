@@ -50,11 +50,11 @@ class FrameStages {
     /// The surfaces that blend, as layers over the others.
     BlendedLayers& layer_surfaces();
 
-    /// Surfaces that blend, over the lit ones; where the last frame had more layers than there is
-    /// room for, not all.
+    /// Lays the first layers of surfaces that blend over the lit ones. Others may follow: see
+    /// blend_rest().
     void blend(LitBand& band, EnvironmentLight& environment, Measured out);
 
-    bool may_blend_all() const { return !layers_ || layers_->may_be_all(); }
+    bool expects_no_more_layers() const { return !layers_ || layers_->expects_no_more(); }
 
     /// After room(): further layers of them; false: there were none. Blocks.
     bool blend_rest(LitBand& band, EnvironmentLight& environment, Measured out);

@@ -48,6 +48,7 @@ void Layers::begin(const Sample& sample, const LitBand& band, StageTimer& timer)
     first_ = surfaces_.begin(context_.device_surfaces(),
                              crop(sample.camera, context_.settings.height, sample.band),
                              band.surfaces, timer);
+    if (!first_ && lighting_) lighting_->forget();
 }
 
 MorePixels Layers::more_pixels() {
@@ -62,13 +63,13 @@ Radiance Layers::light(const LightingInput& input, StageTimer& timer) {
         return all_->enqueue(input, timer);
     }
     lighting_->set_ambient(ambient);
-    return input.whole ? lighting_->enqueue(input, timer) : lighting_->light(input, timer);
+    return input.others ? lighting_->enqueue(input, timer) : lighting_->light(input, timer);
 }
 
-// `whole`: that of LightingInput.
-void Layers::lay(const LayerStack& stack, const ListedLights* whole, LitBand& band,
+// `others`: that of LightingInput.
+void Layers::lay(const LayerStack& stack, const ListedLights* others, LitBand& band,
                  EnvironmentLight& environment, StageTimer& timer) {
-    LightingInput input{stack.surfaces, band.lights, band.grid, band.shadows, whole};
+    LightingInput input{stack.surfaces, band.lights, band.grid, band.shadows, others};
     if (origins_) {
         input.shadows.origins = origins_->enqueue(stack.ids, stack.scene, stack.surfaces,
                                                   band.shadows.casters, band.shadows.view, timer);
@@ -88,14 +89,14 @@ bool Layers::lists_fit(StageTimer& timer) {
 
 // Returns the number of layers that cover any pixel.
 std::uint64_t Layers::count(const LayerStack& stack, FrameStats& stats) const {
-    stats.layer_pixels = std::accumulate(stack.pixels.begin(), stack.pixels.end(),
+    stats.layer_pixels = std::accumulate(stack.pixel_counts.begin(), stack.pixel_counts.end(),
                                          std::uint64_t{stats.layer_pixels});
     if (context_.settings.want.counts) {
         const View& view = stack.surfaces.view;
         stats.layer_tiles += covered_tiles(
             download<uint>(context_.gpu, stack.ids, std::size_t{view.stride} * view.height), view);
     }
-    return stack.pixels.size();
+    return stack.pixel_counts.size();
 }
 
 bool Layers::draw_rest(LitBand& band, EnvironmentLight& environment, Measured out) {

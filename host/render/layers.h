@@ -26,8 +26,10 @@ class Layers {
     /// Both must outlive this.
     Layers(RenderContext& context, BlendedLayers& surfaces);
 
-    /// The first layers in front of the surfaces of `band`; MorePixels of its lists. Enqueues only.
+    /// Draws the first layers in front of the surfaces of `band`. Enqueues only.
     void begin(const Sample& sample, const LitBand& band, StageTimer& timer);
+
+    /// Their pixels, for the frame's lists.
     MorePixels more_pixels();
 
     /// Lays the first layers over the light of `band`, which is lit and has its background. Blocks
@@ -35,7 +37,7 @@ class Layers {
     void draw(LitBand& band, EnvironmentLight& environment, StageTimer& timer);
 
     /// Whether no further ones are expected.
-    bool may_be_all() const { return !first_ || surfaces_.may_be_all(); }
+    bool expects_no_more() const { return !first_ || surfaces_.expects_no_more(); }
 
     /// False where begin() or draw() had too little room; they must run again, and then have it.
     /// Waits for the device.
@@ -47,7 +49,7 @@ class Layers {
     bool draw_rest(LitBand& band, EnvironmentLight& environment, Measured out);
 
  private:
-    void lay(const LayerStack& stack, const ListedLights* whole, LitBand& band,
+    void lay(const LayerStack& stack, const ListedLights* others, LitBand& band,
              EnvironmentLight& environment, StageTimer& timer);
     Radiance light(const LightingInput& input, StageTimer& timer);
     std::uint64_t count(const LayerStack& stack, FrameStats& stats) const;

@@ -52,6 +52,11 @@ struct LitBand {
     void drop_lists() {
         lists = {};
         visible = {};
+        drop_picture();
+    }
+
+    /// Forgets what is made of the light.
+    void drop_picture() {
         shown.reset();
         display.reset();
     }

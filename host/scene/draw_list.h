@@ -12,7 +12,7 @@
 
 namespace kilolux {
 
-/// A part of the planes that a camera's picture is drawn to, with ends outside [pixel].
+/// A rectangle of a camera's picture; its ends may lie outside [pixel].
 struct ScreenBox {
     glm::dvec2 least{-std::numeric_limits<double>::infinity()};
     glm::dvec2 most{std::numeric_limits<double>::infinity()};

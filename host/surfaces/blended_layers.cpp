@@ -39,7 +39,7 @@ View region_of(std::span<const Draw> draws, const View& view) {
 
 std::optional<std::size_t> LayerStack::place(std::size_t layer, uint x, uint y) const {
     const View& view = surfaces.view;
-    const uint column = x - view.first_column, row = y - view.first_row;  // wrap if beside
+    const uint column = plane_column(view, x), row = plane_row(view, y);  // wrap if beside
     if (column >= view.width || row >= rows_of_layer(view)) return {};
     return (layer * rows_of_layer(view) + row) * view.stride + column;
 }
@@ -66,16 +66,17 @@ void BlendedLayers::draw_layers(StageTimer& timer) {
 
 void BlendedLayers::count_drawn() {
     RasterLayers::Drawn drawn = raster_.drawn();
-    stack_.pixels = std::move(drawn.pixels);
-    found_ += stack_.pixels.size();
+    stack_.pixel_counts = std::move(drawn.pixels);
+    layers_[rows_] += stack_.pixel_counts.size();
     goes_on_ = drawn.may_go_on;
     is_counted_ = true;
 }
 
 const LayerStack* BlendedLayers::begin(SurfaceScene& on_device, const Camera& camera,
                                        const GBuffer& opaque, StageTimer& timer) {
-    if (version_ != 0 && opaque.version == version_) return draws_.empty() ? nullptr : &stack_;
-    version_ = opaque.version;
+    if (behind_ != 0 && opaque.version == behind_) return draws_.empty() ? nullptr : &stack_;
+    behind_ = opaque.version;
+    rows_ = opaque.view.first_row;
     stack_ = {};  // arrays that grow must not be held twice
     lists_ = {};
     goes_on_ = false;
@@ -89,30 +90,32 @@ const LayerStack* BlendedLayers::begin(SurfaceScene& on_device, const Camera& ca
     const View region = region_of(draws_, view);
     lists_ = bin_.enqueue(stack_.scene, drawn_triangles(draws_, scene_), region, timer);
     // As many as there were the last time, so that most frames need no other stack.
-    raster_.begin(opaque, region, std::max<std::size_t>(found_, 1), timer);
-    found_before_ = std::exchange(found_, 0);
+    const auto last = layers_.find(rows_);
+    expected_ = last == layers_.end() ? RasterLayers::kMostLayers : last->second;
+    raster_.begin(opaque, region, std::max<std::size_t>(expected_, 1), timer);
     draw_layers(timer);
-    stack_.surfaces.version = version_;
+    if (behind_ != 0) stack_.surfaces.version = ++version_;
     return &stack_;
 }
 
 bool BlendedLayers::fits() {
     if (is_counted_) return true;
-    if (bin_.fits(bin_.pairs())) {
-        count_drawn();
-        return true;
+    if (!bin_.fits(bin_.pairs())) {
+        behind_ = 0;
+        return false;
     }
-    version_ = 0;
-    return false;
+    layers_[rows_] = 0;
+    count_drawn();
+    return true;
 }
 
 const LayerStack* BlendedLayers::next(StageTimer& timer) {
     if (!goes_on_) return nullptr;
     check_interrupt();
-    version_ = 0;
+    behind_ = 0;
     draw_layers(timer);
     count_drawn();
-    return stack_.pixels.empty() ? nullptr : &stack_;
+    return stack_.pixel_counts.empty() ? nullptr : &stack_;
 }
 
 void BlendedLayers::each(SurfaceScene& on_device, const Camera& camera, const GBuffer& opaque,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -31,9 +32,10 @@ struct LayerStack {
     SurfaceBuffers scene;   // of the draws
     std::span<const Draw> draws;
     GBuffer surfaces;
-    std::vector<std::uint64_t> pixels;  // that each layer covers which covers any
+    std::vector<std::uint64_t> pixel_counts;  // of each layer that covers any
 
-    /// Where pixel (x, y) of the picture lies in the planes of layer `layer`; none: beside them.
+    /// The place in the planes of the picture's pixel (x, y) in layer `layer`; none where the
+    /// rectangle does not hold it.
     std::optional<std::size_t> place(std::size_t layer, uint x, uint y) const;
 };
 
@@ -47,19 +49,22 @@ class BlendedLayers {
     BlendedLayers(const Gpu& gpu, const Tuning& tuning, const Scene& scene, SurfacePlan plan);
 
     /// The farthest layers in front of `opaque`, which shows what `camera` sees; null: none is in
-    /// view. They stay while opaque.version does, which their surfaces take over. Enqueues only;
-    /// valid until the next call of begin() or next().
+    /// view. They are kept while opaque.version is the same, and have a version of their own if it
+    /// is known. Enqueues only; valid until the next call of begin() or next().
     const LayerStack* begin(SurfaceScene& on_device, const Camera& camera, const GBuffer& opaque,
                             StageTimer& timer);
 
     /// False where the last begin() had too little room: it must be called again, and then has it.
-    /// Else its stack's `pixels` are there. Blocks.
+    /// Else its stack's pixel_counts are there. Blocks.
     bool fits();
 
-    /// Whether begin() drew as many layers as there were the last time.
-    bool may_be_all() const { return found_before_ <= layer_count(stack_.surfaces.view); }
+    /// Whether the last stack holds as many layers as there were the last time or, once they are
+    /// counted, all.
+    bool expects_no_more() const {
+        return is_counted_ ? !goes_on_ : expected_ <= layer_count(stack_.surfaces.view);
+    }
 
-    /// The layers in front of the last ones, of which `pixels` are there; null: there are none.
+    /// The layers in front of the last ones, of which pixel_counts are there; null: there are none.
     /// Blocks. Throws Error as the stages do, and Interrupted.
     const LayerStack* next(StageTimer& timer);
 
@@ -80,13 +85,16 @@ class BlendedLayers {
     // Of the last begin().
     std::vector<Draw> draws_;
     TriangleLists lists_;
-    std::uint64_t version_ = 0;  // of what lies behind; 0: the stack is another one
+    std::uint64_t behind_ = 0;   // version of what lies behind the stack; 0: it must be drawn again
+    std::uint64_t version_ = 0;  // of the last stack that has one
+    std::size_t expected_ = 0;   // layers
+    // Layers that were there the last time, by the first row of what lay behind.
+    std::map<uint, std::size_t> layers_;
+    uint rows_ = 0;  // that row
     // Of the last stack.
     LayerStack stack_;
     bool goes_on_ = false;  // there may be further layers
     bool is_counted_ = false;
-    std::size_t found_ = RasterLayers::kMostLayers;  // layers since begin()
-    std::size_t found_before_ = 0;                   // since the one before
 };
 
 }  // namespace kilolux

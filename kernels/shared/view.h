@@ -32,8 +32,7 @@ SHARED_STRUCT(View) {
     float4 camera_position;  // xyz: world [m]; only layouts that store world positions need it
     uint first_row;     // of the picture, where the planes begin; `height` counts the planes' rows
     uint first_column;  // likewise; a multiple of 16; 0 in planes that OpenGL draws
-    uint layer_mask;  // bits of y that number the layer, where each has a power of two of rows; 0:
-                      // there is one
+    uint layer_mask;    // bits of y that number the layer, of a power of two of rows; 0: one layer
     uint unused0;
 };
 SHARED_ASSERT(view_size, sizeof(View) == 128);
@@ -43,8 +42,19 @@ SHARED_FN uint picture_column(View view, uint x) { return x + view.first_column;
 
 SHARED_FN uint picture_row(View view, uint y) { return (y & ~view.layer_mask) + view.first_row; }
 
+// The column and row of the planes, in their first layer, of the picture's column x and row y.
+SHARED_FN uint plane_column(View view, uint x) { return x - view.first_column; }
+SHARED_FN uint plane_row(View view, uint y) { return y - view.first_row; }
+
 SHARED_FN uint rows_of_layer(View view) {
     return view.layer_mask != 0u ? ~view.layer_mask + 1u : view.height;
+}
+SHARED_FN uint layer_count(View view) { return view.height / rows_of_layer(view); }
+
+// The first `count` layers.
+SHARED_FN View first_layers(View view, uint count) {
+    view.height = count * rows_of_layer(view);
+    return view;
 }
 
 // Depth z [m] of a pixel with depth01 at pixel coordinates (px, py), centres at +0.5.

@@ -48,9 +48,10 @@ kernel void blend_layer(GBUFFER_ARGS, SCENE_ARGS,         // of layers, from far
     uint rows = rows_of_layer(view);
     if (at.y >= rows) return;
     SurfaceScene scene = SCENE_OF_ARGS;
-    Pixels to = row_pixels(behind, at.x + view.first_column - behind.first_column,
-                           at.y + view.first_row - behind.first_row);
-    bool has_light = false;  // rows beyond the picture have no layer
+    Pixels to = row_pixels(behind, plane_column(behind, picture_column(view, at.x)),
+                           plane_row(behind, picture_row(view, at.y)));
+    // Loads and stores only where a layer covers a pixel: rows may lie below the picture.
+    bool has_light = false;
     FV3 light = zero3();
     for (uint y = at.y; y < view.height; y += rows) {
         Pixels pixels = row_pixels(view, at.x, y);

@@ -22,8 +22,8 @@ kernel void raster_layers_begin(
     }
     if (!at.inside) return;
     GBuffer g = {gbuffer, layout, view, srgb};
-    Pixels pixels = row_pixels(view, at.x + region.first_column - view.first_column,
-                               at.y + region.first_row - view.first_row);
+    Pixels pixels = row_pixels(view, plane_column(view, picture_column(region, at.x)),
+                               plane_row(view, picture_row(region, at.y)));
     FV behind = far_key(view, pixels.x, pixels.y);
     lane_store(fma(load_depth01(g, pixels), fv(near_from_far(view)), behind),
                keys + row_pixels(region, at.x, at.y).first);
@@ -48,7 +48,7 @@ static inline MASK decide_exactly(SurfaceScene scene, View view, uint number, MA
 }
 
 // The layer to draw, of LayerState of host/stages/surfaces/raster_layers.cpp. last_layer: the next
-// farther one, unless is_first: there is none. Both count in the planes.
+// farther one, unused if is_first. Both count in the planes.
 #define LAYER_ARGS uint layer_rows, uint layer, uint last_layer, uint is_first
 
 kernel void raster_layers(View view, SCENE_ARGS, TRIANGLE_LIST_ARGS(const),  // in any order
@@ -81,7 +81,8 @@ kernel void raster_layers(View view, SCENE_ARGS, TRIANGLE_LIST_ARGS(const),  // 
     float y = ray_y(view, at.y);
     FV key = fv(INFINITY);
     UV id = (UV)(0u);
-    MASK one = (MASK)(0), several = (MASK)(0);  // fragments in front, before decide_exactly()
+    MASK one = (MASK)(0), several = (MASK)(0);  // fragments in front, some of which
+                                                // decide_exactly() may turn away
     uint tile = at.y / TILE_HEIGHT * raster_tiles_x(view) + at.x / TILE_WIDTH;
     uint end = min(offsets[tile + 1], capacity);
     for (uint i = offsets[tile]; i < end; ++i) {

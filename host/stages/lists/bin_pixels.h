@@ -22,8 +22,8 @@ class BinPixels {
 
     BinPixels(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
-    /// `occupied`: of the same grid, where the clusters are marked beside those of other pixels;
-    /// else they are marked alone. Enqueues only.
+    /// `occupied`: marks of other pixels' clusters in the same grid, to which these are added;
+    /// none: they are marked alone. Enqueues only.
     ActiveClusters enqueue(const GBuffer& gbuffer, const ClusterGrid& grid, StageTimer& timer,
                            const DeviceArray<std::uint8_t>& occupied = {});
 

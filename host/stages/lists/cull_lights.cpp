@@ -46,7 +46,7 @@ std::size_t CullLights::cursor_stride(const ClusterGrid& grid) const {
 }
 
 CoarseLists CullLights::lists_so_far(const DeviceArray<uint>& offsets) const {
-    return {offsets, lists_.entries<std::byte>(), lists_.capacity()};
+    return {offsets, lists_.entries<std::byte>(), lists_.capacity(), total()};
 }
 
 CoarseLists CullLights::enqueue(const PreparedLights& lights, const ClusterBoxes& boxes,

@@ -22,8 +22,7 @@ BlendLayer::BlendLayer(const Gpu& gpu, const Tuning& tuning, const KernelFeature
 void BlendLayer::enqueue(const DeviceArray<uint>& ids, const SurfaceBuffers& scene,
                          const GBuffer& surfaces, const Radiance& lit, const Radiance& behind,
                          StageTimer& timer) {
-    View one = surfaces.view;
-    one.height = rows_of_layer(one);
+    const View one = first_layers(surfaces.view, 1);
     kernel_.enqueue(kernel_.pixel_items(one, tuning_.shade_rows), timer, surfaces, scene, ids,
                     lit.planes, behind.view, behind.planes);
 }

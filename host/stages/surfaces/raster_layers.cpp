@@ -45,12 +45,6 @@ BuildOptions layer_options(const Tuning& tuning) {
 
 }  // namespace
 
-View first_layers(const View& view, uint count) {
-    View out = view;
-    out.height = count * rows_of_layer(view);
-    return out;
-}
-
 RasterLayers::RasterLayers(const Gpu& gpu, const Tuning& tuning)
     : gpu_(gpu),
       tuning_(tuning),
@@ -76,8 +70,9 @@ LayerIds RasterLayers::enqueue(const SurfaceBuffers& scene, const TriangleLists&
     LayerState state{
         rows_of_layer(layers_),           0,           count - 1, is_first_ ? 1u : 0u, keys_.get(),
         ids_.reserve(pixels_of(layers_)), drawn_.get()};
-    if (!is_first_)
+    if (!is_first_) {
         gpu_.queue.enqueueFillBuffer(state.drawn.buffer(), 0u, 0, kCounts * sizeof(uint));
+    }
     for (; state.layer < count; ++state.layer) {
         draw_.enqueue(draw_.pixel_items(first_layers(layers_, 1), tuning_.shade_rows), timer,
                       region_, scene, lists, state);

@@ -18,10 +18,6 @@ struct LayerIds {
     View view{};            // of all layers, whether or not they show anything
 };
 
-/// How many layers there are in planes, and the first `count` of them.
-inline uint layer_count(const View& view) { return view.height / rows_of_layer(view); }
-View first_layers(const View& view, uint count);
-
 /// Draws surfaces that blend over others as triangle ids, layer by layer from far to near.
 class RasterLayers {
  public:
@@ -41,7 +37,7 @@ class RasterLayers {
 
     /// The last layers.
     struct Drawn {
-        std::vector<std::uint64_t> pixels;  // of each that covers any
+        std::vector<std::uint64_t> pixels;  // of each layer that covers any
         bool may_go_on = false;             // else the nearest is among them
     };
     /// Blocks.
