@@ -190,7 +190,8 @@ TEST(RefineLights, MoreTestsInATileThan32BitsCountAreAnError) {
     clusters.clusters = new_buffer(gpu, active);
     clusters.capacity = 2;
     clusters.tile_count = 1;
-    const CoarseLists coarse{new_buffer(gpu, offsets), new_buffer(gpu, std::vector<uint>(4)), 0};
+    const CoarseLists coarse{
+        new_buffer(gpu, offsets), new_buffer(gpu, std::vector<uint>(4)), 0, {}};
     PreparedLights lights;
     lights.lights = new_buffer(gpu, std::vector<ShadeLight>(1));
     lights.bounds = new_buffer(gpu, std::vector<float4>(1));
