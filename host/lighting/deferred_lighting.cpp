@@ -19,8 +19,7 @@ void DeferredLighting::set_ambient(float ambient) {
 
 Radiance DeferredLighting::enqueue(const LightingInput& input, StageTimer& timer) {
     if (visibility_) check_input(input.shadows, input.gbuffer.view);
-    lists_ = {};  // arrays that grow must not be held twice
-    seen_ = {};
+    release();  // arrays that grow must not be held twice
     lists_ = input.others ? light_lists_.enqueue_sharing(*input.others, input.gbuffer, timer)
                           : light_lists_.enqueue(input.lights, input.gbuffer, input.grid, timer);
     if (visibility_) seen_ = visibility_->enqueue(lists_, input.gbuffer, input.shadows, timer);
@@ -28,9 +27,13 @@ Radiance DeferredLighting::enqueue(const LightingInput& input, StageTimer& timer
                           {seen_.words, seen_.samples, input.shadows});
 }
 
-void DeferredLighting::forget() {
+void DeferredLighting::release() {
     lists_ = {};
     seen_ = {};
+}
+
+void DeferredLighting::forget() {
+    release();
     light_lists_.forget();
 }
 

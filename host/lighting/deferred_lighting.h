@@ -51,7 +51,8 @@ class DeferredLighting {
     /// Radiance that falls in from everywhere.
     void set_ambient(float ambient);
 
-    /// Drops the last lists, see LightLists::forget().
+    /// Releases the last results; forget() also what light_lists() keeps, see there.
+    void release();
     void forget();
 
     LightLists& light_lists() { return light_lists_; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/lighting/light_lists.h"
 
+#include <cassert>
 #include <cstring>
 #include <utility>
 
@@ -30,9 +31,13 @@ ListedLights LightLists::enqueue(const LightInput& input, const GBuffer& gbuffer
                                  const MorePixels& more) {
     check_input(gbuffer);
     check_input(grid, gbuffer.view);
+    assert(!more.maker || gbuffer.version == 0 || more.gbuffer.version != 0);
+    const ListSource source{gbuffer.version, more.maker ? more.gbuffer.version : 0, input.version,
+                            input.seed, grid};
     if (more.maker) more.maker->clusters_.reset();
-    const std::uint64_t more_version = more.maker ? more.gbuffer.version : 0;
-    return kept_or_made({gbuffer.version, more_version, input.version, input.seed, grid}, [&] {
+    // They hold coarse lists of the last time, which may grow.
+    if (more.maker && !is_made_of(source)) more.maker->made_.reset();
+    return kept_or_made(source, [&] {
         const bool is_kept = is_binned(gbuffer, grid);
         const ActiveClusters active = active_of(gbuffer, grid, {}, timer);
         if (more.maker) {
@@ -52,12 +57,17 @@ ListedLights LightLists::enqueue_sharing(const ListedLights& others, const GBuff
     check_input(gbuffer);
     check_input(others.grid, gbuffer.view);
     return kept_or_made({gbuffer.version, 0, others.version, 0, others.grid}, [&] {
-        // Where the others were kept, nobody has asked for the clusters: they are as they were.
+        // Where the others were kept, their enqueue() did not look for the clusters, which their
+        // `occupied` holds already.
         if (!clusters_) find_clusters(gbuffer, others.grid, others.clusters.occupied, timer);
         const ActiveClusters active = *std::exchange(clusters_, std::nullopt);
         shares_coarse_ = true;
         return refined({others.lights, others.boxes, others.coarse}, active, gbuffer, timer);
     });
+}
+
+bool LightLists::is_made_of(const ListSource& source) const {
+    return made_ && is_checked_ && source.matches(made_of_);
 }
 
 void LightLists::forget() {
@@ -76,7 +86,7 @@ void LightLists::find_clusters(const GBuffer& gbuffer, const ClusterGrid& grid,
 
 template <typename Make>
 ListedLights LightLists::kept_or_made(const ListSource& source, const Make& make) {
-    if (made_ && is_checked_ && source.matches(made_of_)) return *made_;
+    if (is_made_of(source)) return *made_;
     made_.reset();  // arrays that grow must not be held twice
     is_checked_ = false;
     if (needs_room_) grow();
@@ -142,6 +152,7 @@ ActiveClusters LightLists::active_of(const GBuffer& gbuffer, const ClusterGrid& 
                                      const DeviceArray<std::uint8_t>& occupied, StageTimer& timer) {
     if (is_binned(gbuffer, grid)) return active_;
     binned_version_ = 0;  // until they are complete
+    active_ = {};         // arrays that grow must not be held twice
     active_ = bin_.enqueue(gbuffer, grid, timer, occupied);
     return active_;
 }

@@ -34,7 +34,7 @@ struct ListSource {
     uint seed = 0;              // of random ranges
     ClusterGrid grid{};
 
-    /// Whether both are known and the same.
+    /// Whether both have known versions and are the same.
     bool matches(const ListSource& other) const;
 };
 
@@ -42,8 +42,8 @@ class LightLists;
 
 /// Further pixels, whose clusters coarse lists must cover, too.
 struct MorePixels {
-    LightLists* maker = nullptr;  // whose enqueue_sharing() will get them; null: there are none
-    GBuffer gbuffer;              // its version is known where that of the first pixels is
+    LightLists* maker = nullptr;  // that will list them by enqueue_sharing(); null: there are none
+    GBuffer gbuffer;              // has a version where that of the first pixels has one
 };
 
 /// The lists that light one pixel, on the host.
@@ -79,12 +79,12 @@ class LightLists {
     ListedLights enqueue(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
                          StageTimer& timer, const MorePixels& more = {});
 
-    /// Lists of the further pixels that the call had which returned `others`; uses its coarse
-    /// lists.
+    /// Lists of the MorePixels of the enqueue() that returned `others`; uses its coarse lists.
     ListedLights enqueue_sharing(const ListedLights& others, const GBuffer& gbuffer,
                                  StageTimer& timer);
 
-    /// Drops the last lists: those of other makers may grow only where nobody holds them.
+    /// Releases the last lists. They hold coarse lists of another maker, which would be there twice
+    /// while they grow.
     void forget();
 
     /// False where the last enqueue()'s lists had no room; the next one makes it. Waits for the
@@ -107,6 +107,7 @@ class LightLists {
     std::vector<ActiveCluster> active_clusters(const ListedLights& lists) const;
 
  private:
+    bool is_made_of(const ListSource& source) const;
     template <typename Make>
     ListedLights kept_or_made(const ListSource& source, const Make& make);
     void find_clusters(const GBuffer& gbuffer, const ClusterGrid& grid,

@@ -48,7 +48,9 @@ void Layers::begin(const Sample& sample, const LitBand& band, StageTimer& timer)
     first_ = surfaces_.begin(context_.device_surfaces(),
                              crop(sample.camera, context_.settings.height, sample.band),
                              band.surfaces, timer);
-    if (!first_ && lighting_) lighting_->forget();
+    if (!lighting_) return;
+    lighting_->release();
+    if (!first_) lighting_->forget();
 }
 
 MorePixels Layers::more_pixels() {

@@ -67,7 +67,7 @@ void BlendedLayers::draw_layers(StageTimer& timer) {
 void BlendedLayers::count_drawn() {
     RasterLayers::Drawn drawn = raster_.drawn();
     stack_.pixel_counts = std::move(drawn.pixels);
-    layers_[rows_] += stack_.pixel_counts.size();
+    layers_[first_row_] += stack_.pixel_counts.size();
     goes_on_ = drawn.may_go_on;
     is_counted_ = true;
 }
@@ -76,7 +76,7 @@ const LayerStack* BlendedLayers::begin(SurfaceScene& on_device, const Camera& ca
                                        const GBuffer& opaque, StageTimer& timer) {
     if (behind_ != 0 && opaque.version == behind_) return draws_.empty() ? nullptr : &stack_;
     behind_ = opaque.version;
-    rows_ = opaque.view.first_row;
+    first_row_ = opaque.view.first_row;
     stack_ = {};  // arrays that grow must not be held twice
     lists_ = {};
     goes_on_ = false;
@@ -90,7 +90,7 @@ const LayerStack* BlendedLayers::begin(SurfaceScene& on_device, const Camera& ca
     const View region = region_of(draws_, view);
     lists_ = bin_.enqueue(stack_.scene, drawn_triangles(draws_, scene_), region, timer);
     // As many as there were the last time, so that most frames need no other stack.
-    const auto last = layers_.find(rows_);
+    const auto last = layers_.find(first_row_);
     expected_ = last == layers_.end() ? RasterLayers::kMostLayers : last->second;
     raster_.begin(opaque, region, std::max<std::size_t>(expected_, 1), timer);
     draw_layers(timer);
@@ -104,7 +104,7 @@ bool BlendedLayers::fits() {
         behind_ = 0;
         return false;
     }
-    layers_[rows_] = 0;
+    layers_[first_row_] = 0;
     count_drawn();
     return true;
 }

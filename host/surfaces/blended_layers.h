@@ -58,8 +58,8 @@ class BlendedLayers {
     /// Else its stack's pixel_counts are there. Blocks.
     bool fits();
 
-    /// Whether the last stack holds as many layers as there were the last time or, once they are
-    /// counted, all.
+    /// Before its layers are counted: whether the last stack has as many as there were the last
+    /// time. After: whether it has all.
     bool expects_no_more() const {
         return is_counted_ ? !goes_on_ : expected_ <= layer_count(stack_.surfaces.view);
     }
@@ -85,12 +85,12 @@ class BlendedLayers {
     // Of the last begin().
     std::vector<Draw> draws_;
     TriangleLists lists_;
-    std::uint64_t behind_ = 0;   // version of what lies behind the stack; 0: it must be drawn again
+    std::uint64_t behind_ = 0;   // version that the stack was drawn against; 0: draw it again
     std::uint64_t version_ = 0;  // of the last stack that has one
     std::size_t expected_ = 0;   // layers
-    // Layers that were there the last time, by the first row of what lay behind.
+    // Layers that were there the last time, by their band's first row.
     std::map<uint, std::size_t> layers_;
-    uint rows_ = 0;  // that row
+    uint first_row_ = 0;  // of this band
     // Of the last stack.
     LayerStack stack_;
     bool goes_on_ = false;  // there may be further layers

@@ -5,7 +5,8 @@
 // KHR_materials_specular), HAS_CLEARCOAT (KHR_materials_clearcoat), HAS_COAT_NORMAL,
 // HAS_SHEEN (KHR_materials_sheen), HAS_ANISOTROPY (ggx.h), HAS_TRANSMISSION
 // (KHR_materials_transmission), HAS_UNLIT. Features that the scene lacks are not compiled in;
-// compiling them in changes no bit of the radiance.
+// compiling them in changes no bit of the radiance,
+// but for HAS_COAT_NORMAL in G-buffers that store normals otherwise than the coat's plane does.
 #ifndef KILOLUX_SHARED_SURFACE_H
 #define KILOLUX_SHARED_SURFACE_H
 #include "kernels/shared/evaluate_modes.h"
@@ -108,7 +109,7 @@ SHARED_PLAIN_STRUCT(ShadingPoint) {
 #endif
 #if HAS_SHEEN_LOBE
     SheenLobe sheen;
-    FV3 sheen_color;  // times its lobe's scale and what a coat leaves
+    FV3 sheen_color;  // the colour times sheen.scale and below_coat
     FV sheen_most;    // the largest channel of its colour
 #endif
 };

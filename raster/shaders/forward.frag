@@ -115,6 +115,7 @@ void main() {
     out_behind = vec4(behind.x, behind.y, behind.z, 0.0);
     radiance = alpha > 0.0 ? scale3(radiance, alpha) : zero3();
 #endif
-    // Finite, since OpenGL blends by products: a share of 0 of infinite light would be NaN.
-    out_radiance = vec4(min(vec3(radiance.x, radiance.y, radiance.z), vec3(1e38)), 1.0);
+    // Finite, and that of a hundred layers, since OpenGL blends by products: a share of 0 of infinite
+    // light would be NaN.
+    out_radiance = vec4(min(vec3(radiance.x, radiance.y, radiance.z), vec3(1e36)), 1.0);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The light that coat, sheen, metal and specular reflection leave: to diffuse reflection, and to go
-// through the surface.
+// How much light coat, sheen, metal and specular reflection leave to diffuse reflection and to what
+// goes through the surface.
 #ifndef KILOLUX_SHARED_LOBES_PASSED_LIGHT_H
 #define KILOLUX_SHARED_LOBES_PASSED_LIGHT_H
 #include "kernels/shared/lobes/ggx.h"
@@ -29,7 +29,8 @@ SHARED_FN FV below_sheen(ShadingPoint p, FV cosine) {
 }
 #endif
 
-// What a surface reflects of even light from all directions: `below` without its sheen.
+// What a surface reflects of even light from all directions, `light` of each colour: `below` is
+// that without its sheen.
 SHARED_FN FV3 with_even_sheen(Surface s, ShadingPoint p, FV3 below, FV3 light) {
 #if HAS_SHEEN_LOBE
     FV left = fma(-p.sheen_most, p.sheen.albedo, fv(1.0f));
@@ -52,7 +53,7 @@ SHARED_FN FV transmitting_share(Surface s) {
 #endif
 }
 
-// The albedo for even light from all directions.
+// The albedo of ambient light, which metal scatters, too.
 SHARED_FN FV3 even_albedo(Surface s) { return scale3(s.albedo, fv(1.0f) - transmitting_share(s)); }
 
 #if SHADING == SHADING_PBR
@@ -67,7 +68,7 @@ SHARED_FN FV diffuse_share(ShadingPoint p, FV rise) {
 }
 #endif
 
-// `scale` times the albedo of diffuse light, head on, below coat and sheen.
+// `scale` times the albedo of the diffuse lobe, head on, below coat and sheen.
 SHARED_FN FV3 diffuse_albedo(Surface s, FV scale) {
 #if HAS_TRANSMISSION
     scale = scale * (fv(1.0f) - s.transmission);

@@ -33,8 +33,8 @@ SHARED_FN FV specular_weight(FV lobe, FV reflectance, FV above) {
 #endif
 }
 
-// Adds the light of the surface below coat and sheen, and `above`, the weights of what they
-// reflect.
+// Adds the light that the surface below coat and sheen reflects, and what they do, by its weights
+// `above`.
 SHARED_FN LightSum add_pbr(LightSum sum, ShadingPoint p, HalfVector half_way, IncidentLight from,
                            FV3 above, float4 color) {
     FV lit = from.lit;
@@ -83,7 +83,7 @@ SHARED_FN FV coat_light(ShadingPoint p, HalfVector half_way, IncidentLight from)
 
 #if HAS_SHEEN_LOBE
 // The weights of light that the coat and, below it, the sheen reflect: exactly 0 without a colour.
-SHARED_FN FV3 add_sheen(FV coat, ShadingPoint p, HalfVector half_way, IncidentLight from) {
+SHARED_FN FV3 weights_with_sheen(FV coat, ShadingPoint p, HalfVector half_way, IncidentLight from) {
     FV n_dot_h = dot3(p.normal, half_way.h);
     FV lobe = sheen_light(p.sheen, half_way.sin2, n_dot_h * n_dot_h, half_way.hh, from.n_dot_l);
     FV sheen = from.weight * lobe;
@@ -105,7 +105,7 @@ SHARED_FN LightSum add_lobes(LightSum sum, ShadingPoint p, IncidentLight from, f
     FV3 above = fv3(coat, coat, coat);
 #if HAS_SHEEN_LOBE
     if (lane_any(p.sheen_most > fv(0.0f))) {
-        above = add_sheen(coat, p, half_way, from);
+        above = weights_with_sheen(coat, p, half_way, from);
         from.lit = from.lit * below_sheen(p, from.n_dot_l);
     }
 #endif
@@ -128,7 +128,12 @@ SHARED_FN FV turned_cosine(FV cosine, FV3 normal, FV3 other) {
 SHARED_FN LightSum add_pbr_bounds(LightSum sum, Surface s, ShadingPoint p, LightBound most) {
 #if HAS_COAT
     FV coat_peak = ggx_bound(p.coat, turned_cosine(most.cosine, p.normal, p.coat_normal));
-    sum.specular = add3(sum.specular, scale3(most.all, p.coat_share * coat_peak));
+    // Without a coat its lobe counts for nothing, also where the light overflows.
+    MASK has_coat = p.coat_share > fv(0.0f);
+    FV3 coat = scale3(most.all, p.coat_share * coat_peak);
+    sum.specular = add3(sum.specular, fv3(lane_select(has_coat, coat.x, fv(0.0f)),
+                                          lane_select(has_coat, coat.y, fv(0.0f)),
+                                          lane_select(has_coat, coat.z, fv(0.0f))));
     most.diffuse = scale3(most.diffuse, p.below_coat);
 #endif
     sum.diffuse = add3(sum.diffuse, most.diffuse);
@@ -145,9 +150,11 @@ SHARED_FN LightSum add_pbr_bounds(LightSum sum, Surface s, ShadingPoint p, Light
                        fma(f.z, peak * most.all.z, sum.specular.z));
 #if HAS_SHEEN_LOBE
     FV sheen = sheen_bound(p.sheen, p.lobe.n_dot_v);
-    sum.specular = fv3(fma(p.sheen_color.x, sheen * most.all.x, sum.specular.x),
-                       fma(p.sheen_color.y, sheen * most.all.y, sum.specular.y),
-                       fma(p.sheen_color.z, sheen * most.all.z, sum.specular.z));
+    MASK has_sheen = p.sheen_most > fv(0.0f);
+    sum.specular = fv3(
+        sum.specular.x + lane_select(has_sheen, p.sheen_color.x * (sheen * most.all.x), fv(0.0f)),
+        sum.specular.y + lane_select(has_sheen, p.sheen_color.y * (sheen * most.all.y), fv(0.0f)),
+        sum.specular.z + lane_select(has_sheen, p.sheen_color.z * (sheen * most.all.z), fv(0.0f)));
 #endif
     return sum;
 }

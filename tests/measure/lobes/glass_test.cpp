@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // KHR_materials_transmission and KHR_materials_volume against float64, in every renderer.
+#include <cmath>
+
 #include "host/scene/lights/prefiltered_environment.h"
 #include "tests/support/glass_pictures.h"
 
@@ -125,7 +127,7 @@ TEST(Glass, WhatAlphaCoversIsNotSeenAlsoWhereItIsInfinite) {
         const Camera camera = look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 0.1);
         return Renderer(scene, settings).render(camera, 0.0).radiance[3 * (8 * 17 + 8)];
     };
-    EXPECT_GT(middle_of(), 1e37f);
+    EXPECT_TRUE(std::isinf(middle_of()));
     add_glass_pane(scene, pane, 0.0, 0.0);
     for (const RendererKind renderer : {RendererKind::deferred, RendererKind::forward}) {
         settings.renderer = renderer;
