@@ -107,7 +107,6 @@ SceneFeatures needed(SceneFeatures out, int shading, const RenderSettings& setti
         if (is_forced(settings, feature.name)) out.*feature.member = true;
     }
     out.unlit |= is_forced(settings, "unlit");
-    out.clearcoat |= out.coat_normals;
     out.material = out.metallic || out.emissive;
     return out;
 }
