@@ -66,7 +66,8 @@ ForwardLightBuffers::ForwardLightBuffers(LightAccess access)
       cluster_offsets_(GL_R32UI, sizeof(uint), "clusters"),
       light_lists_(GL_R32UI, sizeof(uint), "light lists"),
       profiles_(GL_RGBA32F, sizeof(float4), "light profiles"),
-      profile_tables_(GL_R32F, sizeof(float), "light profiles' tables") {}
+      profile_tables_(GL_R32F, sizeof(float), "light profiles' tables"),
+      shapes_(GL_RGBA32F, sizeof(float4), "light shapes") {}
 
 void ForwardLightBuffers::upload(const ForwardLights& lights, const View& view) {
     std::vector<ShadeLight> local;
@@ -88,11 +89,13 @@ void ForwardLightBuffers::upload(const ForwardLights& lights, const View& view) 
     lights_.refill(std::as_bytes(std::span(local)), access_);
     cluster_offsets_.refill(std::as_bytes(lights.cluster_offsets), access_);
     light_lists_.refill(std::as_bytes(lights.light_lists), access_);
-    if (lights.profiles.empty()) return;
     std::vector<AimedProfile> profiles;
     for (const AimedProfile& p : lights.profiles) profiles.push_back(aimed_in_view(view, p));
     profiles_.refill(std::as_bytes(std::span(profiles)), access_);
     profile_tables_.refill(std::as_bytes(lights.profile_tables), access_);
+    std::vector<LightShape> shapes;
+    for (const LightShape& shape : lights.shapes) shapes.push_back(shape_in_view(view, shape));
+    shapes_.refill(std::as_bytes(std::span(shapes)), access_);
 }
 
 void ForwardLightBuffers::bind() const {
@@ -103,6 +106,7 @@ void ForwardLightBuffers::bind() const {
     light_lists_.bind(3, LIGHT_LISTS_UNIT);
     profiles_.bind(4, LIGHT_PROFILES_UNIT);
     profile_tables_.bind(5, PROFILE_TABLES_UNIT);
+    shapes_.bind(6, LIGHT_SHAPES_UNIT);
 }
 
 }  // namespace kilolux

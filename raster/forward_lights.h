@@ -6,7 +6,7 @@
 
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/light.h"
-#include "kernels/shared/light_profile.h"
+#include "kernels/shared/light_extras.h"
 #include "kernels/shared/lights/light_transform.h"
 #include "kernels/shared/view.h"
 #include "raster/gl_object.h"
@@ -27,6 +27,8 @@ struct ForwardLights {
     // With SceneFeatures::light_profiles: one per light, camera-relative, and their tables.
     std::span<const AimedProfile> profiles;
     std::span<const float> profile_tables;
+    // With SceneFeatures::area_lights: one per light, camera-relative.
+    std::span<const LightShape> shapes;
 };
 
 /// How shaders read lights and lists; the bits are the same. llvmpipe reads a storage buffer lane
@@ -63,13 +65,13 @@ class ForwardLightBuffers {
     /// Throws Error when there are more lights, clusters or list entries than can be read.
     void upload(const ForwardLights& lights, const View& view);
 
-    /// Binds uniform block 1, storage blocks 0 to 5 and the texture units that draw_rows.h names.
+    /// Binds uniform block 1, storage blocks 0 to 6 and the texture units that draw_rows.h names.
     void bind() const;
 
  private:
     LightAccess access_;
     GlBuffer frame_, directional_;
-    LightArray lights_, cluster_offsets_, light_lists_, profiles_, profile_tables_;
+    LightArray lights_, cluster_offsets_, light_lists_, profiles_, profile_tables_, shapes_;
 };
 
 }  // namespace kilolux

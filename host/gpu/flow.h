@@ -13,7 +13,7 @@
 #include "kernels/shared/clusters.h"
 #include "kernels/shared/gbuffer.h"
 #include "kernels/shared/light.h"
-#include "kernels/shared/light_profile.h"
+#include "kernels/shared/light_extras.h"
 #include "kernels/shared/lights/light_tree.h"
 #include "kernels/shared/view.h"
 
@@ -37,10 +37,13 @@ struct GBuffer {
     }
 };
 
-/// The photometric webs of point and spot lights, with KernelFeatures::light_profiles.
-struct ProfileInput {
-    std::optional<DeviceArray<AimedProfile>> lights;  // one per light and node
-    std::optional<DeviceArray<float>> tables;         // see light_profile.h
+/// Rows beside lights' own, one per light and node, where the scene has them.
+struct LightExtraInput {
+    // With KernelFeatures::light_profiles.
+    std::optional<DeviceArray<AimedProfile>> profiles;
+    std::optional<DeviceArray<float>> profile_tables;  // see light_profile.h
+    // With KernelFeatures::area_lights.
+    std::optional<DeviceArray<LightShape>> shapes;
 };
 
 /// Lights as the host hands them over.
@@ -50,7 +53,7 @@ struct LightInput {
     DeviceArray<DirectionalLight>
         directional{};  // [directional_count], world axes; none: no buffer
     uint directional_count = 0;
-    ProfileInput profiles{};    // world axes
+    LightExtraInput extras{};   // world axes
     uint seed = 0;              // of random ranges, see light_transform.h; 0: no range is random
     std::uint64_t version = 0;  // equal only for equal lights; 0: unknown
     // With KernelFeatures::light_tree, lights that are in no coarse list: the nodes of a tree.
@@ -66,8 +69,8 @@ struct PreparedLights {
     uint count = 0;
     DeviceArray<DirectionalLight> directional;  // [directional_count], view space
     uint directional_count = 0;
-    ProfileInput profiles;  // view space
-    uint node_count = 0;    // see LightInput
+    LightExtraInput extras;  // view space
+    uint node_count = 0;     // see LightInput
     DeviceArray<TreeNode> nodes{};
     uint rows() const { return count + node_count; }
 
@@ -78,8 +81,9 @@ struct PreparedLights {
         set("light_count", count);
         set("directional_lights", directional);
         set("directional_count", directional_count);
-        set("aimed_profiles", profiles.lights);
-        set("profile_tables", profiles.tables);
+        set("aimed_profiles", extras.profiles);
+        set("profile_tables", extras.profile_tables);
+        set("shapes", extras.shapes);
         set("tree_nodes", nodes);
         set("node_count", node_count);
     }

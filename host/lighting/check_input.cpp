@@ -40,10 +40,13 @@ void check_input(const LightInput& lights) {
                std::to_string(lights.directional_count) + " rows");
     check_size("light tree", lights.nodes, lights.node_count * sizeof(TreeNode),
                std::to_string(lights.node_count) + " nodes");
-    if (lights.profiles.lights) {
-        check_size("light profiles", *lights.profiles.lights, rows * sizeof(AimedProfile),
-                   std::to_string(rows) + " rows");
-    }
+    const auto check_extras = [&](const char* name, const auto& array) {
+        if (!array) return;
+        using Row = typename std::decay_t<decltype(*array)>::value_type;
+        check_size(name, *array, rows * sizeof(Row), std::to_string(rows) + " rows");
+    };
+    check_extras("light profiles", lights.extras.profiles);
+    check_extras("light shapes", lights.extras.shapes);
 }
 
 void check_input(const ClusterGrid& grid, const View& view) {

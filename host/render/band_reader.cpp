@@ -67,7 +67,7 @@ void add_lights(const RenderContext& context, const Camera& camera, const LightR
         light.shade = shade_light(view, light.light, light.index, tail_seed(settings, 0));
         if (rows.profiles.empty()) continue;
         AimedProfile row = rows.profiles.at(light.index);
-        row = {rotated(view, row.down, row.down.w), rotated(view, row.side, row.side.w)};
+        row = aimed_in_view(view, row);
         light.web = webs_in_view(std::span(&row, 1), context.scene->scene()).front();
     }
 }
@@ -262,8 +262,8 @@ LitSurfaces BandReader::lit_surfaces(const LastSample& last) {
                     single_lights(download(gpu, lights.lights, lights.rows()), lights.count, nodes),
                     download(gpu, lights.directional, lights.directional_count),
                     {}};
-    if (lights.profiles.lights) {
-        const auto rows = download(gpu, *lights.profiles.lights, lights.rows());
+    if (lights.extras.profiles) {
+        const auto rows = download(gpu, *lights.extras.profiles, lights.rows());
         out.webs = webs_in_view(single_lights(rows, lights.count, nodes), context_.scene->scene());
     }
     return out;

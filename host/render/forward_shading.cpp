@@ -21,6 +21,7 @@ ForwardLights forward_lights(const Sample& sample, float ambient, const HostCoar
     out.directional = sample.rows.directional;
     out.profiles = sample.rows.profiles;
     out.profile_tables = sample.rows.profile_tables;
+    out.shapes = sample.rows.shapes;
     out.seed = sample.lights.seed;
     out.ambient = ambient;
     if (lists) {

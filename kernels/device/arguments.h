@@ -8,7 +8,7 @@
 #include "kernels/device/stored_light.h"
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/clusters.h"
-#include "kernels/shared/light_profile.h"
+#include "kernels/shared/light_extras.h"
 #include "kernels/shared/lights/light_tree.h"
 #include "kernels/shared/shadow.h"
 #include "kernels/shared/surface_scene.h"
@@ -19,15 +19,16 @@
     global const uchar *restrict gbuffer, GBufferLayout layout, View view, \
         global const float *restrict srgb
 
-// PreparedLights, view space. lights, bounds (p_view, 1/range^2), extents, aimed_profiles:
-// [light_count + node_count]; the nodes of the light tree come last.
+// PreparedLights, view space. lights, bounds (p_view, 1/range^2), extents, aimed_profiles,
+// shapes: [light_count + node_count]; the nodes of the light tree come last.
 #define LIGHT_ARGS(access)                                                                       \
     global access StoredLight *restrict lights, global access float4 *restrict bounds,           \
         global access LightExtent *restrict extents, uint light_count,                           \
         global const DirectionalLight *restrict directional_lights, uint directional_count,      \
         global const AimedProfile *restrict aimed_profiles,                                      \
-        global const float *restrict profile_tables, global const TreeNode *restrict tree_nodes, \
-        uint node_count
+        global const float *restrict profile_tables, global const LightShape *restrict shapes,   \
+        global const TreeNode *restrict tree_nodes, uint node_count
+#define EXTRAS_OF_ARGS ((LightExtras){{aimed_profiles, profile_tables}, shapes})
 
 // ClusterBoxes. columns: [slices][tiles_x]; rows: [slices][tiles_y]; depths: [slices].
 #define BOX_ARGS(access)                                                                           \

@@ -5,10 +5,6 @@
 #include "kernels/device/lanes.h"
 #include "kernels/shared/lights/light_transform.h"
 
-#ifndef HAS_LIGHT_PROFILES
-#define HAS_LIGHT_PROFILES 0
-#endif
-
 // Tiles [first, last] that the interval [lo, hi] in pixels touches, with a hundredth of a tile to
 // spare for rounding; an interval beside the screen gives first > last.
 static inline UV tile_interval(FV lo, FV hi, uint tile_size, uint tiles) {
@@ -125,13 +121,10 @@ kernel void prepare_directional_lights(
     out[light].color = lights[light].color;
 }
 
-#if HAS_LIGHT_PROFILES
-// Profiles' directions in view space.
-kernel void aim_profiles(global const AimedProfile* restrict profiles,  // [count], world axes
-                         uint count, View view,
-                         global AimedProfile* restrict out) {  // out [count], view space
-    uint light = get_global_id(0);
-    if (light >= count) return;
-    out[light] = aimed_in_view(view, profiles[light]);
+// Vectors of lights' extras in view space; w stays as it is.
+kernel void turn_rows(global const float4* restrict rows,  // [count], world axes
+                      uint count, View view,
+                      global float4* restrict out) {  // out [count], view space
+    uint row = get_global_id(0);
+    if (row < count) out[row] = rotated(view, rows[row], rows[row].w);
 }
-#endif

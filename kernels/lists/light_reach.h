@@ -27,13 +27,15 @@ static inline bool sphere_reaches(float dx, float dy, float dz, float inv_range2
     return fma(dz, dz, fma(dy, dy, dx * dx)) * inv_range2 <= CULL_LIMIT;
 }
 
-// A spot's cone against the bounding sphere of a box: false only if no point of the sphere is
-// inside. Uses the distance from the centre to the cone's surface. The nearest point of that
-// surface lies on it wherever the centre is outside: of cones narrower than 90 degrees that holds
-// in front of their apex, of wider ones everywhere.
+// A spot's cone against a box: false only if no point of the box is inside. What is behind the
+// apex is told by the box's corners, so that the half-space before a flat light is tested exactly;
+// else the box's bounding sphere is tested by the distance from its centre to the cone's surface.
+// The nearest point of that surface lies on it wherever the centre is outside: of cones narrower
+// than 90 degrees that holds in front of their apex, of wider ones everywhere.
 static inline bool cone_reaches(ShadeLight light, float3 lo, float3 hi) {
     float3 q = 0.5f * (lo + hi) - light.position_inv_range2.xyz;
-    float radius = 0.5f * length(hi - lo);
+    float3 half_size = 0.5f * (hi - lo);
+    float radius = length(half_size);
     float q2 = dot(q, q);
     // Point lights, and squares beyond float32's range, leave the decision to the box test.
     if (!(q2 + radius * radius < 1e30f) || light.axis_cos.w <= -1.0f) return true;
@@ -43,7 +45,8 @@ static inline bool cone_reaches(ShadeLight light, float3 lo, float3 hi) {
     float sin_out = sqrt(max(1.0f - cos_out * cos_out, 0.0f));
     float slack = 1e-3f * (radius + sqrt(q2));  // more than float32 loses here
     // A selection, not a branch: PoCL 3.1 loses values across cull_lights' barriers otherwise.
-    float back = cos_out < 0.0f ? -1e30f : -(radius + slack);
+    float corner = dot(half_size, fabs(light.axis_cos.xyz));
+    float back = cos_out < 0.0f ? -1e30f : -(corner + slack);
     return cos_out * across - sin_out * along <= radius + slack && along >= back;
 }
 #endif

@@ -7,7 +7,6 @@
 #include "kernels/device/light_index.h"
 #include "kernels/device/stored_light.h"
 #include "kernels/shared/evaluate.h"
-#include "kernels/shared/light_profile.h"
 
 // Which pixels see a light: SHADOWS_NONE: all; SHADOWS_BITS: those whose bit cast_shadows has set;
 // SHADOWS_RAYS: those whose rays, cast on demand, reach it. SAMPLED_SHADOWS: only for picked
@@ -65,30 +64,25 @@ typedef struct LightSet {
     ShadowPick pick;
     FV* variance;  // the estimated variance of the luminance
 #endif
-#if HAS_LIGHT_PROFILES
-    LightProfiles profiles;
-#endif
+    LightExtras extras;
 } LightSet;
 
 // Declares the set of a kernel's arguments, and the local memory in which it stages lights.
 #if STAGE > 0
-#define LIGHT_SET_OF_ARGS(set)                                        \
-    local ShadeLight staged_lights[STAGE];                            \
-    local uint staged_indices[STAGE];                                 \
-    LightSet set = light_set(lights, aimed_profiles, profile_tables); \
-    set.staged = staged_lights;                                       \
+#define LIGHT_SET_OF_ARGS(set)                        \
+    local ShadeLight staged_lights[STAGE];            \
+    local uint staged_indices[STAGE];                 \
+    LightSet set = light_set(lights, EXTRAS_OF_ARGS); \
+    set.staged = staged_lights;                       \
     set.staged_indices = staged_indices
 #else
-#define LIGHT_SET_OF_ARGS(set) LightSet set = light_set(lights, aimed_profiles, profile_tables)
+#define LIGHT_SET_OF_ARGS(set) LightSet set = light_set(lights, EXTRAS_OF_ARGS)
 #endif
 
-static inline LightSet light_set(global const StoredLight* lights,
-                                 global const AimedProfile* profiles, global const float* tables) {
+static inline LightSet light_set(global const StoredLight* lights, LightExtras extras) {
     LightSet set;
     set.lights = lights;
-#if HAS_LIGHT_PROFILES
-    set.profiles = (LightProfiles){profiles, tables};
-#endif
+    set.extras = extras;
     return set;
 }
 
@@ -230,9 +224,9 @@ static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p, L
             sum = enter_block(sum, light);
 #if SAMPLED_SHADOWS
             ADD_SAMPLED(set, first + i, light, sum.block,
-                        EVALUATE(zero_sum(), p, set.staged[i], set.profiles, light))
+                        EVALUATE(zero_sum(), p, set.staged[i], set.extras, light))
 #else
-#define STAGED_LIGHT(sum) EVALUATE(sum, p, set.staged[i], set.profiles, light)
+#define STAGED_LIGHT(sum) EVALUATE(sum, p, set.staged[i], set.extras, light)
             ADD_SEEN(set, sum.block, sees_entry(set, first + i, light),
                      shadow_point_light(TINT_VIEW(set), set.staged[i]), STAGED_LIGHT)
 #endif
@@ -245,9 +239,9 @@ static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p, L
         sum = enter_block(sum, light);
 #if SAMPLED_SHADOWS
         ADD_SAMPLED(set, i, light, sum.block,
-                    EVALUATE(zero_sum(), p, LIGHT_AT(set.lights, light), set.profiles, light))
+                    EVALUATE(zero_sum(), p, LIGHT_AT(set.lights, light), set.extras, light))
 #else
-#define LISTED_LIGHT(sum) EVALUATE(sum, p, LIGHT_AT(set.lights, light), set.profiles, light)
+#define LISTED_LIGHT(sum) EVALUATE(sum, p, LIGHT_AT(set.lights, light), set.extras, light)
         ADD_SEEN(set, sum.block, sees_entry(set, i, light),
                  shadow_point_light(TINT_VIEW(set), LIGHT_AT(set.lights, light)), LISTED_LIGHT)
 #endif

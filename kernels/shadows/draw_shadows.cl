@@ -26,9 +26,7 @@ kernel void draw_shadows(LIT_ARGS, WORD_ARGS(), SAMPLE_ARGS) {
     Surface s = load_surface(g, item.pixels, item.z);
     ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
     ShadowPick pick = make_pick(s, p, SAMPLES_OF_ARGS, view, item.pixels, at);
-#if HAS_LIGHT_PROFILES
-    LightProfiles profiles = {aimed_profiles, profile_tables};
-#endif
+    LightExtras extras = EXTRAS_OF_ARGS;
     FOR_EACH_CLUSTER_OF(item, i, mine, active, at.tile) {
         ShadowBits bits =
             bits_of_cluster(words + word_offsets[at.tile], clusters + i, place_of_item(at.x, at.y));
@@ -41,7 +39,7 @@ kernel void draw_shadows(LIT_ARGS, WORD_ARGS(), SAMPLE_ARGS) {
 #endif
         for (uint j = 0; j < clusters[i].list_count; ++j) {
             uint light = lists[clusters[i].list_begin + j];
-            LightSum one = EVALUATE(zero_sum(), p, LIGHT_AT(lights, light), profiles, light);
+            LightSum one = EVALUATE(zero_sum(), p, LIGHT_AT(lights, light), extras, light);
             FV alone = light_alone(pick, one);
             put_bits(bits, directional_count + j, mine & picks_light(pick, alone, light), words);
         }

@@ -11,11 +11,13 @@
 // nothing. Switches: those of surface.h, FAST_RSQRT and NATIVE_MATH of types.h, EARLY_OUT, and
 // HAS_RANDOM_RANGES, where lights may have random ranges (light_transform.h): then RANDOM_RANGES is
 // pi times the radiance that such a light causes on a white surface at the least of them;
-// HAS_LIGHT_PROFILES, where lights may have photometric webs: then evaluate() takes them and the
-// light's index. The macro EVALUATE takes them in any case, and drops them where there are none.
+// HAS_LIGHT_EXTRAS, where lights may have photometric webs or a size: then evaluate() takes their
+// rows and the light's index. The macro EVALUATE takes them in any case, and drops them where there
+// are none.
 #ifndef KILOLUX_SHARED_EVALUATE_H
 #define KILOLUX_SHARED_EVALUATE_H
 #include "kernels/shared/light.h"
+#include "kernels/shared/light_extras.h"
 #include "kernels/shared/lobes/light_sum.h"
 #include "kernels/shared/lobes/passed_light.h"
 #include "kernels/shared/lobes/pbr.h"
@@ -26,20 +28,16 @@
 #ifndef HAS_RANDOM_RANGES
 #define HAS_RANDOM_RANGES 0
 #endif
-#ifndef HAS_LIGHT_PROFILES
-#define HAS_LIGHT_PROFILES 0
-#endif
-#if HAS_LIGHT_PROFILES
-#include "kernels/shared/light_profile.h"
-#define EVALUATE(sum, p, light, profiles, index) evaluate(sum, p, light, profiles, index)
+#if HAS_LIGHT_EXTRAS
+#define EVALUATE(sum, p, light, extras, index) evaluate(sum, p, light, extras, index)
 #else
-#define EVALUATE(sum, p, light, profiles, index) evaluate(sum, p, light)
+#define EVALUATE(sum, p, light, extras, index) evaluate(sum, p, light)
 #endif
 
 // Returns early for a light whose window is 0 in all lanes, before its costly part. It pays for all
-// models but lambert, where the branch costs more than it saves, unless lights have profiles.
+// models but lambert, where the branch costs more than it saves, unless lights have extras.
 #ifndef EARLY_OUT
-#define EARLY_OUT (SHADING != SHADING_LAMBERT || HAS_LIGHT_PROFILES)
+#define EARLY_OUT (SHADING != SHADING_LAMBERT || HAS_LIGHT_EXTRAS)
 #endif
 
 #define INV_PI 0.318309886f
@@ -97,9 +95,9 @@ SHARED_FN FV window_of(ShadeLight light, FV d2) {
     return max(fma(-x, x, fv(1.0f)), fv(0.0f));
 }
 
-// Adds a point or spot light.
-#if HAS_LIGHT_PROFILES
-SHARED_FN LightSum evaluate(LightSum sum, ShadingPoint p, ShadeLight light, LightProfiles profiles,
+// Adds a light that has a place.
+#if HAS_LIGHT_EXTRAS
+SHARED_FN LightSum evaluate(LightSum sum, ShadingPoint p, ShadeLight light, LightExtras extras,
                             uint index) {
 #else
 SHARED_FN LightSum evaluate(LightSum sum, ShadingPoint p, ShadeLight light) {
@@ -113,7 +111,11 @@ SHARED_FN LightSum evaluate(LightSum sum, ShadingPoint p, ShadeLight light) {
     if (!lane_any(window > fv(0.0f))) return sum;
 #endif
 #if HAS_LIGHT_PROFILES
-    window = window * profile_share(profiles, index, v);
+    window = window * profile_share(extras.profiles, index, v);
+#endif
+#if HAS_AREA_LIGHTS
+    LightShape shape = shape_of_light(extras, index);
+    if (has_size(shape)) return add_area_light(sum, p, shape, v, window, light.color_scale);
 #endif
     FV e2 = max(d2, fv(LIGHT_D_MIN * LIGHT_D_MIN));
     FV n_dot_v = max(dot3(p.normal, v), fv(0.0f));  // n.l times the distance

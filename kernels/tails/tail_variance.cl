@@ -42,9 +42,7 @@ kernel void tail_variance(LIT_ARGS, WORD_ARGS(const), SAMPLE_ARGS,
     pick.surface = s;
     pick.point = p;
     pick.surface.emissive = zero3();
-#if HAS_LIGHT_PROFILES
-    LightProfiles profiles = {aimed_profiles, profile_tables};
-#endif
+    LightExtras extras = EXTRAS_OF_ARGS;
     FV sum = fv(0.0f);
     FOR_EACH_CLUSTER_OF(item, i, mine, active, at.tile) {
         ShadowBits bits;
@@ -59,7 +57,7 @@ kernel void tail_variance(LIT_ARGS, WORD_ARGS(const), SAMPLE_ARGS,
             float4 from = light.position_inv_range2;
             FV3 v = fv3(fv(from.x) - p.position.x, fv(from.y) - p.position.y,
                         fv(from.z) - p.position.z);
-            LightSum one = EVALUATE(zero_sum(), p, light, profiles, index);
+            LightSum one = EVALUATE(zero_sum(), p, light, extras, index);
             FV alone = light_alone(pick, one);
             FV missed = fv(1.0f) - fv(1.0f) / random_range_weight(light, dot3(v, v));
             FV share = seen_share(pick, bits, directional_count + j, alone);

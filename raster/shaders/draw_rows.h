@@ -17,15 +17,16 @@ namespace kilolux {
 #define LIGHT_LISTS_UNIT (USES_MAX + 2)
 #define LIGHT_PROFILES_UNIT (USES_MAX + 3)
 #define PROFILE_TABLES_UNIT (USES_MAX + 4)
-#define VERTICES_UNIT (USES_MAX + 5)
-#define INDICES_UNIT (USES_MAX + 6)
+#define LIGHT_SHAPES_UNIT (USES_MAX + 5)
+#define VERTICES_UNIT (USES_MAX + 6)
+#define INDICES_UNIT (USES_MAX + 7)
 
-// Storage blocks of the scene, after the six of forward lights; the last is the G-buffer pass's.
-#define INSTANCES_BLOCK 6
-#define MESHES_BLOCK 7
-#define MATERIALS_BLOCK 8
-#define TEXTURES_BLOCK 9
-#define SRGB_BLOCK 10
+// Storage blocks of the scene, after the seven of forward lights; the last is the G-buffer pass's.
+#define INSTANCES_BLOCK 7
+#define MESHES_BLOCK 8
+#define MATERIALS_BLOCK 9
+#define TEXTURES_BLOCK 10
+#define SRGB_BLOCK 11
 
 // Uniform blocks.
 #define CAMERA_BLOCK 0

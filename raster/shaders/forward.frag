@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A fragment lit where it is drawn: by every light, or with CLUSTERED by the lights of its coarse
 // cluster. SHADING, HAS_SPOT_LIGHTS, HAS_METALLIC, HAS_SPECULAR, HAS_CLEARCOAT, HAS_SHEEN,
-// HAS_ANISOTROPY, HAS_TRANSMISSION, HAS_UNLIT, HAS_LIGHT_PROFILES as in evaluate.h;
-// HAS_DIRECTIONAL_LIGHTS. BLENDED: the material lets light through.
+// HAS_ANISOTROPY, HAS_TRANSMISSION, HAS_UNLIT, HAS_LIGHT_PROFILES, HAS_AREA_LIGHTS as
+// in evaluate.h; HAS_DIRECTIONAL_LIGHTS. BLENDED: the material lets light through.
 #include "raster/shaders/surface.glsl"
 #include "kernels/shared/evaluate.h"
 
@@ -60,6 +60,23 @@ float profile_value(LightProfiles from, uint i) { return profile_tables[i]; }
 float profile_head(LightProfiles from, uint i) { return profile_value(from, i); }
 #endif
 
+#if HAS_AREA_LIGHTS
+#if LIGHT_TEXTURES
+layout(binding = LIGHT_SHAPES_UNIT) uniform samplerBuffer light_shapes;  // rows of LightShape
+
+LightShape shape_of_light(LightExtras from, uint light) {
+    LightShape read;
+    read.half_x = texelFetch(light_shapes, 2 * int(light));
+    read.half_y = texelFetch(light_shapes, 2 * int(light) + 1);
+    return read;
+}
+#else
+layout(std430, binding = 6) readonly buffer LightShapes { LightShape light_shapes[]; };
+
+LightShape shape_of_light(LightExtras from, uint light) { return light_shapes[light]; }
+#endif
+#endif
+
 layout(location = 0, index = 0) precise out vec4 out_radiance;  // linear
 #if BLENDED
 layout(location = 0, index = 1) precise out vec4 out_behind;  // the share of the light behind
@@ -80,8 +97,8 @@ uvec2 light_range(float z) {
 // Sums as kernels/shading/shade.cl does: in blocks by light index.
 LightSum sum_lights(LightSum total, ShadingPoint p, uvec2 range) {
     RunningSum sum = start_sum(total);
-#if HAS_LIGHT_PROFILES
-    LightProfiles profiles = LightProfiles(0u);
+#if HAS_LIGHT_EXTRAS
+    LightExtras extras = LightExtras(LightProfiles(0u));
 #endif
     for (uint i = range.x; i < range.y; ++i) {
 #if CLUSTERED
@@ -90,7 +107,7 @@ LightSum sum_lights(LightSum total, ShadingPoint p, uvec2 range) {
         uint light = i;
 #endif
         sum = enter_block(sum, light);
-        sum.block = EVALUATE(sum.block, p, light_at(light), profiles, light);
+        sum.block = EVALUATE(sum.block, p, light_at(light), extras, light);
     }
     return finish_sum(sum);
 }

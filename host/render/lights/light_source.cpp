@@ -162,22 +162,35 @@ void LightSource::upload_tables() {
         profile_tables_.insert(profile_tables_.end(), web.table.begin(), web.table.end());
     }
     kilolux::upload<float>(gpu_, uploaded_tables_.reserve(profile_tables_.size()), profile_tables_);
-    input_.profiles.tables = uploaded_tables_.get();
+    input_.extras.profile_tables = uploaded_tables_.get();
 }
 
-void LightSource::upload_profiles() {
-    std::vector<AimedProfile> profiles(row_count(), aimed_profile({}, scene_, profile_starts_));
-    for (std::size_t i = 0; i < row_count(); ++i) {
+// Uploads a row beside each light's: `row_of` makes it, `drifting_row` is that of generated ones.
+template <typename Row>
+DeviceArray<Row> LightSource::upload_extras(GrowingArray<Row>& to, const Row& drifting_row,
+                                            auto&& row_of) {
+    std::vector<Row> rows(row_count(), drifting_row);
+    tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
         const bool drifts = i >= order_.size() && i < list_count();
-        if (!drifts) profiles[i] = aimed_profile(light(i), scene_, profile_starts_);
-    }
-    kilolux::upload<AimedProfile>(gpu_, profiles_.reserve(profiles.size()), profiles);
-    input_.profiles.lights = profiles_.get();
+        if (!drifts) rows[i] = row_of(light(i));
+    });
+    const DeviceArray<Row> out = to.reserve(rows.size());
+    kilolux::upload<Row>(gpu_, out, rows);
+    return out;
 }
 
 // Uploads the lights that the host places.
 void LightSource::upload() {
-    if (!scene_.aimed_profiles.empty()) upload_profiles();
+    if (!scene_.aimed_profiles.empty()) {
+        const auto row_of = [&](const SceneLight& light) {
+            return aimed_profile(light, scene_, profile_starts_);
+        };
+        input_.extras.profiles = upload_extras(profiles_, row_of({}), row_of);
+    }
+    if (has_area_lights_) {
+        input_.extras.shapes =
+            upload_extras(shapes_, shape_row(generated_light(options_)), shape_row);
+    }
     const std::span<WorldLight> rows = move_.stage(row_count() - drifting());
     tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
         rows[i] = world_light(light(i < order_.size() ? i : i + drifting()));

@@ -70,7 +70,8 @@ class LightSource {
     void plant_tree(const std::vector<std::uint32_t>& members);
     void upload();
     void upload_tables();
-    void upload_profiles();
+    template <typename Row>
+    DeviceArray<Row> upload_extras(GrowingArray<Row>& to, const Row& drifting_row, auto&& row_of);
 
     Gpu gpu_;
     const Scene& scene_;
@@ -99,6 +100,7 @@ class LightSource {
     // Of the scene's webs, one after the other, and where each starts.
     std::vector<float> profile_tables_, profile_starts_;
     GrowingArray<AimedProfile> profiles_;
+    GrowingArray<LightShape> shapes_;
     GrowingArray<float> uploaded_tables_;
     // With Tails::tree, the lights that are in no list: their rows follow those of order_.
     LightTree tree_;

@@ -8,28 +8,32 @@ PrepareLights::PrepareLights(const Gpu& gpu, const Tuning& tuning)
       program_(build_program(gpu, kPrepareLightsStage)),
       prepare_(gpu, program_, kPrepareLightsStage, "prepare_lights"),
       prepare_directional_(gpu, program_, kPrepareLightsStage, "prepare_directional_lights"),
+      turn_rows_(gpu, program_, kPrepareLightsStage, "turn_rows"),
       lights_(gpu, kPrepareLightsStage),
       bounds_(gpu, kPrepareLightsStage),
       extents_(gpu, kPrepareLightsStage),
       directional_(gpu, kPrepareLightsStage),
-      profiles_(gpu, kPrepareLightsStage) {}
+      profiles_(gpu, kPrepareLightsStage),
+      shapes_(gpu, kPrepareLightsStage) {}
 
-ProfileInput PrepareLights::aim_profiles(const LightInput& input, const View& view,
-                                         StageTimer& timer) {
-    if (!input.profiles.lights) return {};
-    if (!aim_profiles_) {
-        BuildOptions options;
-        options.define("HAS_LIGHT_PROFILES", 1);
-        aim_profiles_.emplace(gpu_, build_program(gpu_, kPrepareLightsStage, options),
-                              kPrepareLightsStage, "aim_profiles");
-    }
-    const uint rows = input.count + input.node_count;
-    const DeviceArray<AimedProfile> out = profiles_.reserve(rows);
-    if (rows > 0) {
-        aim_profiles_->enqueue(items(rows, tuning_.light_group), timer, *input.profiles.lights,
-                               rows, view, out);
-    }
-    return {out, input.profiles.tables};
+LightExtraInput PrepareLights::turn_extras(const LightInput& input, const View& view,
+                                           StageTimer& timer) {
+    const std::size_t lights = std::size_t{input.count} + input.node_count;
+    const auto turned = [&](const auto& rows, auto& out) {
+        using Row = typename std::decay_t<decltype(rows)>::value_type;
+        const DeviceArray<Row> result = out.reserve(lights);
+        const std::size_t count = lights * (sizeof(Row) / sizeof(float4));
+        if (count > 0) {
+            turn_rows_.enqueue(items(count, tuning_.light_group), timer,
+                               DeviceArray<float4>(rows.buffer(), count), static_cast<uint>(count),
+                               view, DeviceArray<float4>(result.buffer(), count));
+        }
+        return result;
+    };
+    LightExtraInput out = input.extras;
+    if (out.profiles) out.profiles = turned(*out.profiles, profiles_);
+    if (out.shapes) out.shapes = turned(*out.shapes, shapes_);
+    return out;
 }
 
 PreparedLights PrepareLights::enqueue(const LightInput& input, const View& view,
@@ -52,7 +56,7 @@ PreparedLights PrepareLights::enqueue(const LightInput& input, const View& view,
         prepare_directional_.enqueue(items(input.directional_count, 1), timer, input.directional,
                                      view, out.directional);
     }
-    out.profiles = aim_profiles(input, view, timer);
+    out.extras = turn_extras(input, view, timer);
     return out;
 }
 

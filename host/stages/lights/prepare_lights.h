@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
-
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
@@ -28,18 +26,18 @@ class PrepareLights {
                            StageTimer& timer);
 
  private:
-    ProfileInput aim_profiles(const LightInput& input, const View& view, StageTimer& timer);
+    LightExtraInput turn_extras(const LightInput& input, const View& view, StageTimer& timer);
 
     Gpu gpu_;
     Tuning tuning_;
     KernelProgram program_;
-    Kernel prepare_, prepare_directional_;
-    std::optional<Kernel> aim_profiles_;  // made for the first lights with photometric webs
+    Kernel prepare_, prepare_directional_, turn_rows_;
     GrowingArray<ShadeLight> lights_;
     GrowingArray<float4> bounds_;
     GrowingArray<LightExtent> extents_;
     GrowingArray<DirectionalLight> directional_;
     GrowingArray<AimedProfile> profiles_;
+    GrowingArray<LightShape> shapes_;
 };
 
 }  // namespace kilolux

@@ -4,7 +4,7 @@
 #define KILOLUX_SHARED_LIGHTS_LIGHT_TRANSFORM_H
 #include "kernels/shared/hash.h"
 #include "kernels/shared/light.h"
-#include "kernels/shared/light_profile.h"
+#include "kernels/shared/light_extras.h"
 #include "kernels/shared/view.h"
 
 // Largest 1/range^2 [1/m^2]: a range below 1e-19 m must not become infinity times 0.
@@ -61,6 +61,13 @@ SHARED_FN AimedProfile aimed_in_view(View view, AimedProfile world) {
     AimedProfile out;
     out.down = rotated(view, world.down, world.down.w);
     out.side = rotated(view, world.side, world.side.w);
+    return out;
+}
+
+SHARED_FN LightShape shape_in_view(View view, LightShape world) {
+    LightShape out;
+    out.half_x = rotated(view, world.half_x, world.half_x.w);
+    out.half_y = rotated(view, world.half_y, world.half_y.w);
     return out;
 }
 
