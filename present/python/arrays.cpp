@@ -120,7 +120,8 @@ std::vector<SceneLight> lights_of(const std::string& kind,
         if (!std::isfinite(light.direction.x)) {
             throw Error(fmt::format("lights: direction of light {} is zero or not finite", i));
         }
-        light.side = perpendicular_side(light.direction);
+        light.side = perpendicular_side(light.direction, row(arrays.at("side"), i));
+        light.two_sided = arrays.at("two_sided").data()[i] != 0.0;
         if (const std::string problem = cone_problem(light); !problem.empty()) {
             throw Error(fmt::format("lights: light {}: {}", i, problem));
         }
