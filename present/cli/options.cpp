@@ -116,7 +116,7 @@ void visit_lights(const SettingVisitor& f, SharedOptions& o) {
 void visit_more_lights(const SettingVisitor& f, SharedOptions& o) {
     RenderSettings& s = o.settings;
     const auto take_size = [&o](const std::string& name, const std::string& text) {
-        o.load.light_size = o.settings.lights.size = parse_number(name, text, {0.0, kMaxFloat});
+        o.load.light_size = o.settings.lights.size = parse_number(name, text, kZeroOrAboveRange);
     };
     OptionBuilder(f, "Lights, added to the file's own")
         .rest()
