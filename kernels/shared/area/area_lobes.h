@@ -83,6 +83,13 @@ SHARED_FN LightSum add_area_lobes(LightSum sum, ShadingPoint p, SeenLight view, 
 }
 #endif
 
+// Adds the light of a row with a size. v: from the shading point to its centre; window: the factor
+// of its range; color: intensity straight ahead [cd].
+SHARED_FN LightSum add_area_light(LightSum sum, ShadingPoint p, LightShape shape, FV3 v, FV window,
+                                  float4 color) {
+    return add_area_lobes(sum, p, seen_light(v, shape), window * fv(shape.half_y.w), color);
+}
+
 #if defined(__cplusplus)
 }  // namespace kilolux
 #endif
