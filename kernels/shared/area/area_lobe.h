@@ -53,14 +53,15 @@ SHARED_PLAIN_STRUCT(AreaLobe) {
 #endif
 };
 
-SHARED_FN AreaLobe make_area_lobe(GgxLobe lobe) {
+// `slope`: of the lobe in the plane of normal and eye, alpha where it is round.
+SHARED_FN AreaLobe make_area_lobe(GgxLobe lobe, FV slope) {
     FV one = fv(1.0f), n_dot_v = min(lobe.n_dot_v, one);
-    FV alpha = min(lobe.alpha, one), roughness = lane_sqrt(alpha);
+    FV alpha = min(slope, one), roughness = lane_sqrt(alpha);
     FV wide2 = fv(GGX_SPREAD2) * (alpha * alpha);
     FV spread2 = fma(n_dot_v, n_dot_v, wide2);
     FV inverse = lane_rsqrt(spread2);
     FV spread = spread2 * inverse, x = n_dot_v * inverse, rest = wide2 * (inverse * inverse);
-    FV narrow = fv(0.5f) / alpha;
+    FV narrow = fv(0.5f) / lobe.alpha;
     FV sine = lane_sqrt(max(fma(-n_dot_v, n_dot_v, one), fv(0.0f)));
     AreaLobe area;
     area.along = spread2 * narrow * fma(rest, fit_along(x, roughness), one);
@@ -78,16 +79,18 @@ SHARED_FN AreaLobe make_area_lobe(GgxLobe lobe) {
 }
 
 #if HAS_ANISOTROPY
-// A lobe of the slopes at, ab: x and y of the transformed light of the round lobe of
+// A lobe of the slopes at, ab along and across a tangent: the transformed light of a round lobe of
 // alpha = sqrt(at ab), times alpha / at along the tangent and alpha / ab across it. Exact for
-// narrow lobes seen head on. The identity without strength.
-SHARED_FN AreaLobe stretched_area_lobe(AreaLobe area, GgxLobe lobe, AreaFrame frame) {
+// narrow lobes. Elsewhere the transform is that of the slope in the plane of the eye.
+SHARED_FN AreaLobe stretched_area_lobe(GgxLobe lobe, AreaFrame frame) {
     FV across = lane_sqrt(lobe.alpha2);
     FV shrink = across / lobe.alpha, grow = lobe.alpha / across;
     FV x = dot3(frame.x, lobe.tangent), y = dot3(frame.y, lobe.tangent);
+    FV slope_x = lobe.alpha * grow * x, slope_y = across * y;
+    AreaLobe area = make_area_lobe(lobe, lane_sqrt(fma(slope_x, slope_x, slope_y * slope_y)));
+    FV less = shrink - grow;
     area.tangent_x = x;
     area.tangent_y = y;
-    FV less = shrink - grow;
     area.stretch_xx = fma(x * x, less, grow);
     area.stretch_xy = x * y * less;
     area.stretch_yy = fma(y * y, less, grow);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/measure/area/fit/area_cases.h"
+#include "tests/measure/area/fit/shared_light.h"
 
 namespace kilolux {
 
