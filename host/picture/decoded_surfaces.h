@@ -57,6 +57,7 @@ struct LitSurfaces {
     std::vector<ShadeLight> lights;             // view space
     std::vector<DirectionalLight> directional;  // view space
     std::vector<WebInView> webs;                // one per light, or none at all
+    std::vector<LightShape> shapes;             // view space; one per light, or none at all
 };
 
 /// The coarse cluster of the pixel at an index of the planes; none for background.

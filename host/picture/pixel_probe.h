@@ -20,6 +20,7 @@ struct ProbedLight {
     Light light{};             // camera-relative, world axes
     ShadeLight shade{};        // as shading has it, view space
     WebInView web{};           // its photometric web, if it has one
+    LightShape shape{};        // its shape, view space
     std::optional<bool> seen;  // with shadows: whether nothing hides it from the pixel
 };
 
