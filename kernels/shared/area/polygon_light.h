@@ -113,7 +113,7 @@ SHARED_FN EdgeSums cut_edge(FV3 center, FV3 p, FV3 q, FV3 cut, FV3 pivot) {
     return sums;
 }
 
-SHARED_FN EdgeSums add_sums(EdgeSums a, EdgeSums b) {
+SHARED_FN EdgeSums add_edges(EdgeSums a, EdgeSums b) {
     a.near += b.near;
     a.far += b.far;
     return a;
@@ -128,10 +128,9 @@ SHARED_FN EdgeSums cut_polygon(FV3 center, Corners at) {
     // A convex outline sets once and rises once.
     FV3 set = lane_select3(b > a, ab, lane_select3(c > b, bc, lane_select3(d > c, cd, da)));
     FV3 rise = lane_select3(b < a, ab, lane_select3(c < b, bc, lane_select3(d < c, cd, da)));
-    EdgeSums sums = add_sums(add_sums(cut_edge(center, at.a, at.b, ab, set),
-                                      cut_edge(center, at.b, at.c, bc, set)),
-                             add_sums(cut_edge(center, at.c, at.d, cd, set),
-                                      cut_edge(center, at.d, at.a, da, set)));
+    EdgeSums sums = add_edges(
+        add_edges(cut_edge(center, at.a, at.b, ab, set), cut_edge(center, at.b, at.c, bc, set)),
+        add_edges(cut_edge(center, at.c, at.d, cd, set), cut_edge(center, at.d, at.a, da, set)));
     sums.near += any_edge(add3(center, set), add3(center, rise));
     return sums;
 }
@@ -162,9 +161,9 @@ SHARED_FN FV parallelogram_cosine(FV3 center, FV3 half_x, FV3 half_y) {
     FV3 sum = add3(half_x, half_y), difference = sub3(half_x, half_y);
     FV square = dot3(half_x, half_x) + dot3(half_y, half_y);
     MASK large = square > dot3(center, center) * SMALL_LIGHT;
-    FV whole = four_samples(center, scale3(half_x, fv(0.577350269f)),
-                            scale3(half_y, fv(0.577350269f)),
-                            -dot3(center, cross3(half_x, half_y)));
+    FV whole =
+        four_samples(center, scale3(half_x, fv(0.577350269f)), scale3(half_y, fv(0.577350269f)),
+                     -dot3(center, cross3(half_x, half_y)));
     if (lane_any(large)) {
         FV edges = edge_sum(sub3(center, sum), add3(center, difference), add3(center, sum),
                             sub3(center, difference));
