@@ -142,7 +142,8 @@ TEST(Options, PictureOptionsArrive) {
 TEST(Options, LightCameraAndDeviceOptionsArrive) {
     const Parsed p = parsed(
         "--lights 2147483648 --light-seed 18446744073709551615 --light-radius 2.5 "
-        "--light-intensity 7 --light-size 0.25 --light-box -1,-2,-3,1,2,3 --camera-index 3 --camera-position -1,2,3 "
+        "--light-intensity 7 --light-size 0.25 --light-box -1,-2,-3,1,2,3 --camera-index 3 "
+        "--camera-position -1,2,3 "
         "--camera-focal-point 0,0,-1e3 --camera-view-up 0,0,1 --camera-view-angle 45.5 "
         "--camera-orthographic --grid 32,18,8 --lanes 16 --device pthread -v");
     const LightOptions& l = p.shared.settings.lights;
