@@ -8,6 +8,7 @@
 #include "host/picture/web_in_view.h"
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/gbuffer.h"
+#include "kernels/shared/area/area_shape.h"
 #include "kernels/shared/light.h"
 #include "kernels/shared/view.h"
 

@@ -10,6 +10,7 @@
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/clusters.h"
 #include "kernels/shared/gbuffer.h"
+#include "kernels/shared/area/area_shape.h"
 #include "kernels/shared/light.h"
 
 namespace kilolux {
