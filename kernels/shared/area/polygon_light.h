@@ -82,11 +82,6 @@ SHARED_FN FV3 horizon_point(FV center_z, FV3 p, FV3 q) {
     return fv3(fma(q.x - p.x, t, p.x), fma(q.y - p.y, t, p.y), -center_z);
 }
 
-SHARED_FN FV3 lane_select3(MASK mask, FV3 a, FV3 b) {
-    return fv3(lane_select(mask, a.x, b.x), lane_select(mask, a.y, b.y),
-               lane_select(mask, a.z, b.z));
-}
-
 // 1 where a point is below the horizon, else 0.
 SHARED_FN FV below_horizon(FV3 center, FV3 offset) {
     return lane_select(center.z + offset.z < 0.0f, fv(1.0f), fv(0.0f));
@@ -100,8 +95,8 @@ SHARED_PLAIN_STRUCT(EdgeSums) { FV near, far; };
 // the common point.
 SHARED_FN EdgeSums cut_edge(FV3 center, FV3 p, FV3 q, FV3 cut, FV3 pivot) {
     FV p_below = below_horizon(center, p), q_below = below_horizon(center, q);
-    p = lane_select3(p_below > 0.0f, cut, p);
-    q = lane_select3(q_below > 0.0f, cut, q);
+    p = select3(p_below > 0.0f, cut, p);
+    q = select3(q_below > 0.0f, cut, q);
     FV above = fma(-p_below, q_below, fv(1.0f));
     FV3 first = add3(center, pivot);
     FV3 to_p = scale3(sub3(p, pivot), fv(0.5f)), to_q = scale3(sub3(q, pivot), fv(0.5f));
@@ -126,8 +121,8 @@ SHARED_FN EdgeSums cut_polygon(FV3 center, Corners at) {
     FV3 ab = horizon_point(center.z, at.a, at.b), bc = horizon_point(center.z, at.b, at.c);
     FV3 cd = horizon_point(center.z, at.c, at.d), da = horizon_point(center.z, at.d, at.a);
     // A convex outline sets once and rises once.
-    FV3 set = lane_select3(b > a, ab, lane_select3(c > b, bc, lane_select3(d > c, cd, da)));
-    FV3 rise = lane_select3(b < a, ab, lane_select3(c < b, bc, lane_select3(d < c, cd, da)));
+    FV3 set = select3(b > a, ab, select3(c > b, bc, select3(d > c, cd, da)));
+    FV3 rise = select3(b < a, ab, select3(c < b, bc, select3(d < c, cd, da)));
     EdgeSums sums = add_edges(
         add_edges(cut_edge(center, at.a, at.b, ab, set), cut_edge(center, at.b, at.c, bc, set)),
         add_edges(cut_edge(center, at.c, at.d, cd, set), cut_edge(center, at.d, at.a, da, set)));
