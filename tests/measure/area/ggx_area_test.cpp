@@ -208,7 +208,7 @@ TEST(GgxArea, LightIsContinuous) {
     constexpr int kSteps = 20'000;
     for (const RoundLobe& lobe : some_lobes()) {
         if (lobe.alpha < 0.02 || lobe.n_dot_v < 0.02) continue;  // their edges are steep
-        for (const double size : {0.02, 0.3, 2.0}) {
+        for (const double size : {0.02, 1.0}) {
             double most = 0.0, step = 0.0, last = 0.0;
             for (int i = 0; i <= kSteps; ++i) {
                 const double angle = 3.4 * i / kSteps - 0.1;
