@@ -87,6 +87,41 @@ TEST(GgxFit, AlbedosAreIntegralsOfTheLobe) {
     EXPECT_LT(rise, 0.025);
 }
 
+// Everywhere, between the nodes, too.
+TEST(GgxFit, TransformsHaveInversesAndAlbedosAreShares) {
+    for (int i = 0; i <= 100; ++i) {
+        for (int k = 0; k <= 400; ++k) {
+            const RoundLobe lobe = table_lobe(i / 100.0, std::max(std::pow(k / 400.0, 3), 1e-4));
+            const AreaLobe area = area_lobe_of(lobe);
+            ASSERT_TRUE(area.along > 0.0f && area.across > 0.0f) << name_of(lobe);
+            ASSERT_TRUE(area.albedo > 0.25f && area.albedo <= 1.0f) << name_of(lobe);
+            ASSERT_TRUE(area.rise >= 0.0f && area.rise < 1.0f) << name_of(lobe);
+        }
+    }
+}
+
+// Covariances of points, evenly spread: x x^T / 3 + y y^T / 3 of a parallelogram.
+TEST(GgxArea, HalfSidesOfTrianglesHaveTheirVariances) {
+    const glm::dvec3 x(1.0, 0.2, -0.1), y(0.3, 0.8, 0.4);
+    glm::dmat3 expected(0.0);
+    constexpr int kSteps = 200;
+    for (int i = 0; i < kSteps; ++i) {
+        for (int j = 0; j < kSteps - i; ++j) {
+            const double a = (i + 0.5) / kSteps - 1.0 / 3.0, b = (j + 0.5) / kSteps - 1.0 / 3.0;
+            const glm::dvec3 at = a * x + b * y;
+            expected += glm::outerProduct(at, at) / (0.5 * kSteps * (kSteps + 1));
+        }
+    }
+    const FlatLight light =
+        with_half_sides({SHAPE_TRIANGLE, {as_fv3({0, 0, 2}), as_fv3(x), as_fv3(y)}});
+    const glm::dvec3 half_x(light.half_x.x, light.half_x.y, light.half_x.z);
+    const glm::dvec3 half_y(light.half_y.x, light.half_y.y, light.half_y.z);
+    for (int i = 0; i < 3; ++i) {
+        const glm::dvec3 row = (half_x * half_x[i] + half_y * half_y[i]) / 3.0;
+        for (int k = 0; k < 3; ++k) EXPECT_NEAR(row[k], expected[i][k], 1e-3) << i << k;
+    }
+}
+
 // The numbers of a row "| a | b | mean / worst | ...".
 std::vector<double> numbers_of(std::string line) {
     for (char& sign : line) sign = sign == '|' || sign == '/' ? ' ' : sign;
