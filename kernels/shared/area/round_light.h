@@ -92,8 +92,11 @@ SHARED_FN FlatLight sphere_disk(FV3 center, FV radius) {
 
 // The root above 0 of k^3 + a k^2 + b k - c, whose other roots are below 0, from above: Laguerre.
 SHARED_FN FV largest_root(FV k, FV a, FV b, FV c) {
-    k = lane_select(b > 0.0f, min(k, lane_divide(c, max(b, fv(1e-37f)))), k);
-    for (int i = 0; i < 3; ++i) {
+    // Without k^3 the root is above. This start is near where the root is small beside the others.
+    FV wide = max(a, fv(0.0f));
+    FV below = b + lane_sqrt(max(fma(b, b, 4.0f * wide * c), fv(0.0f)));
+    k = lane_select(a > 0.0f, min(k, lane_divide(2.0f * c, max(below, fv(1e-37f)))), k);
+    for (int i = 0; i < 2; ++i) {
         FV value = fma(fma(k + a, k, b), k, -c);
         FV slope = fma(fma(fv(3.0f), k, 2.0f * a), k, b);
         FV bend = fma(fv(6.0f), k, 2.0f * a);
