@@ -154,6 +154,15 @@ SHARED_FN FV turn_of(FV cross, FV dot) {
     return lane_select(cross < 0.0f, -angle, angle);
 }
 
+// log2((1 + a) (1 - b) / ((1 - a) (1 + b))) for |a|, |b| < 1, of small relative error.
+SHARED_FN FV log2_of_quotient(FV a, FV b) {
+    FV above = (1.0f + a) * (1.0f - b), below = max((1.0f - a) * (1.0f + b), fv(1e-30f));
+    FV f = lane_divide(2.0f * (a - b), above);  // 1 - below / above
+    MASK small = max(f, -f) < 0.29f;
+    f = max(min(f, fv(0.29f)), fv(-0.29f));
+    return lane_select(small, f * log2_slope(f), log2_of(lane_divide(above, below)));
+}
+
 // The cone's irradiance where the horizon cuts it: the integral along the outline, which is
 // (sqrt(p) cos(f), sqrt(q) sin(f), sqrt(k)) about its axes, and the edge on the horizon.
 SHARED_FN FV cut_ellipse_cosine(EllipseCone cone) {
@@ -177,9 +186,8 @@ SHARED_FN FV cut_ellipse_cosine(EllipseCone cone) {
     around = lane_select(around < 0.0f, around + 6.28318531f, around);
     FV sum = lane_divide(cone.axis_z * root_p * root_q * around, root_pk * root_qk);
     FV e = lane_divide(root_pq, root_pk);
-    FV up = lane_divide((1.0f + e * to_s) * (1.0f - e * from_s),
-                        max((1.0f - e * to_s) * (1.0f + e * from_s), fv(1e-30f)));
-    sum -= lane_divide(a * root_q * root_k * 0.346573590f * log2_of(up), root_pk * root_pq);
+    FV log2 = log2_of_quotient(e * to_s, e * from_s);
+    sum -= lane_divide(a * root_q * root_k * 0.346573590f * log2, root_pk * root_pq);
     FV across = turn_of(root_qk * root_pq * (from_c - to_c), fma(pq * from_c, to_c, qk));
     sum -= lane_divide(b * root_p * root_k * across, root_qk * root_pq);
     // The edge on the horizon.
