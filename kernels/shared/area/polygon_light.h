@@ -61,7 +61,7 @@ SHARED_FN FV any_edge(FV3 p, FV3 q) {
     return edge_term(p, q, inverse_length(dot3(p, p)) * inverse_length(dot3(q, q)));
 }
 
-// z / r^4 at center + offset, times `scale`.
+// z / r^4 at a point, times `scale`.
 SHARED_FN FV sample_of(FV3 point, FV scale) {
     FV inverse = lane_divide(fv(1.0f), max(dot3(point, point), fv(SMALLEST_SQUARE)));
     return (point.z * inverse) * (scale * inverse);
@@ -81,11 +81,6 @@ SHARED_FN FV3 horizon_point(FV center_z, FV3 p, FV3 q) {
     FV t = lane_divide(from, lane_select(max(rise, -rise) < 1e-37f, fv(1.0f), rise));
     t = max(min(t, fv(1.0f)), fv(0.0f));
     return fv3(fma(q.x - p.x, t, p.x), fma(q.y - p.y, t, p.y), -center_z);
-}
-
-SHARED_FN FV3 lane_select3(MASK mask, FV3 a, FV3 b) {
-    return fv3(lane_select(mask, a.x, b.x), lane_select(mask, a.y, b.y),
-               lane_select(mask, a.z, b.z));
 }
 
 // 1 where a point is below the horizon, else 0.
@@ -128,8 +123,8 @@ SHARED_FN FV edge_of(FV3 center, FV3 p, FV3 q, bool distant) {
 // The part of an edge above the horizon, which it meets in `cut`.
 SHARED_FN FV cut_edge(FV3 center, FV3 p, FV3 q, FV3 cut, bool distant) {
     FV p_below = below_horizon(center, p), q_below = below_horizon(center, q);
-    FV edge = edge_of(center, lane_select3(p_below > 0.0f, cut, p),
-                      lane_select3(q_below > 0.0f, cut, q), distant);
+    FV edge =
+        edge_of(center, select3(p_below > 0.0f, cut, p), select3(q_below > 0.0f, cut, q), distant);
     return edge * fma(-p_below, q_below, fv(1.0f));
 }
 
@@ -140,8 +135,8 @@ SHARED_FN FV cut_outline_sum(FV3 center, Corners at, bool distant) {
     FV3 ab = horizon_point(center.z, at.a, at.b), bc = horizon_point(center.z, at.b, at.c);
     FV3 cd = horizon_point(center.z, at.c, at.d), da = horizon_point(center.z, at.d, at.a);
     // A convex outline sets once and rises once.
-    FV3 set = lane_select3(b > a, ab, lane_select3(c > b, bc, lane_select3(d > c, cd, da)));
-    FV3 rise = lane_select3(b < a, ab, lane_select3(c < b, bc, lane_select3(d < c, cd, da)));
+    FV3 set = select3(b > a, ab, select3(c > b, bc, select3(d > c, cd, da)));
+    FV3 rise = select3(b < a, ab, select3(c < b, bc, select3(d < c, cd, da)));
     return (cut_edge(center, at.a, at.b, ab, distant) + cut_edge(center, at.b, at.c, bc, distant)) +
            (cut_edge(center, at.c, at.d, cd, distant) + cut_edge(center, at.d, at.a, da, distant)) +
            edge_of(center, set, rise, distant);

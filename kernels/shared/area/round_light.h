@@ -134,8 +134,8 @@ SHARED_FN EllipseCone ellipse_cone(FV3 center, FV3 half_x, FV3 half_y) {
     cone.k = k;
     cone.axis_z = max(min(along_z * inverse_length(slope * along), fv(1.0f)), fv(-1.0f));
     cone.faced = fv(-3.14159265f) * volume * inverse_length(k * slope);
-    cone.spread = max(fma(k * cone.axis_z, cone.axis_z,
-                          fma(x.z, x.z, fma(y.z, y.z, -(c.z * c.z)))), fv(0.0f));
+    cone.spread = max(fma(k * cone.axis_z, cone.axis_z, fma(x.z, x.z, fma(y.z, y.z, -(c.z * c.z)))),
+                      fv(0.0f));
     // p q and p + q, by whichever form does not cancel.
     FV product = volume * lane_divide(volume, k);
     FV sum = lane_select(cc > size, lane_divide(product - minors, k), (size - cc) + k);
@@ -182,7 +182,8 @@ SHARED_FN FV cut_ellipse_cosine(EllipseCone cone) {
     FV to_c = fma(c0, c, -(s0 * s)), to_s = fma(s0, c, c0 * s);
     FV root_pk = lane_sqrt(pk), root_qk = lane_sqrt(qk), root_pq = lane_sqrt(pq);
     // Three integrals: of 1, of the cosine and of the sine, over the square of the distance.
-    FV around = turn_of(root_pk * root_qk * 2.0f * s * c, fma(pk * from_c, to_c, qk * from_s * to_s));
+    FV around =
+        turn_of(root_pk * root_qk * 2.0f * s * c, fma(pk * from_c, to_c, qk * from_s * to_s));
     around = lane_select(around < 0.0f, around + 6.28318531f, around);
     FV sum = lane_divide(cone.axis_z * root_p * root_q * around, root_pk * root_qk);
     FV e = lane_divide(root_pq, root_pk);
@@ -191,9 +192,9 @@ SHARED_FN FV cut_ellipse_cosine(EllipseCone cone) {
     FV across = turn_of(root_qk * root_pq * (from_c - to_c), fma(pq * from_c, to_c, qk));
     sum -= lane_divide(b * root_p * root_k * across, root_qk * root_pq);
     // The edge on the horizon.
-    FV normal = fma(a * root_q * root_k, to_s - from_s,
-                    fma(b * root_p * root_k, from_c - to_c,
-                        cone.axis_z * root_p * root_q * (-2.0f * s * c)));
+    FV normal = fma(
+        a * root_q * root_k, to_s - from_s,
+        fma(b * root_p * root_k, from_c - to_c, cone.axis_z * root_p * root_q * (-2.0f * s * c)));
     FV dot = fma(p * from_c, to_c, fma(q * from_s, to_s, k));
     return 0.5f * (sum + turn_of(max(normal, fv(0.0f)), dot));
 }
@@ -208,8 +209,7 @@ SHARED_FN FV ellipse_cosine(FV3 center, FV3 half_x, FV3 half_y, MASK large) {
     FV sine2 = max(cone.spread * both, fv(1e-37f));
     FV cosine = cone.faced * cone_cosine(cone.axis_z, sine2, rest * both);
     FV cut = lane_select(large, sine2 - cone.axis_z * cone.axis_z, fv(0.0f));
-    if (lane_any(cut > 0.0f))
-        cosine = lane_select(cut > 0.0f, cut_ellipse_cosine(cone), cosine);
+    if (lane_any(cut > 0.0f)) cosine = lane_select(cut > 0.0f, cut_ellipse_cosine(cone), cosine);
     return lane_select(cone.faced > 0.0f, cosine, fv(0.0f));
 }
 

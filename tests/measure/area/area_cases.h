@@ -35,10 +35,14 @@ inline AreaShape stored(AreaShape s) {
 inline double shared_cosine(const AreaShape& s) {
     const FV3 center = float3_of(s.center), x = float3_of(s.half_x), y = float3_of(s.half_y);
     switch (s.kind) {
-        case AreaKind::rectangle: return parallelogram_cosine(center, x, y);
-        case AreaKind::triangle: return triangle_cosine(center, x, y);
-        case AreaKind::disk: return disk_cosine(center, x, y);
-        case AreaKind::sphere: break;
+        case AreaKind::rectangle:
+            return parallelogram_cosine(center, x, y);
+        case AreaKind::triangle:
+            return triangle_cosine(center, x, y);
+        case AreaKind::disk:
+            return disk_cosine(center, x, y);
+        case AreaKind::sphere:
+            break;
     }
     return sphere_cosine(center, static_cast<float>(s.radius));
 }
@@ -57,7 +61,7 @@ inline std::ostream& operator<<(std::ostream& out, const AreaShape& s) {
 
 /// Random numbers of the cases.
 class AreaRandom {
-public:
+ public:
     explicit AreaRandom(unsigned seed) : generator_(seed) {}
     double uniform(double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(generator_);
@@ -71,7 +75,7 @@ public:
         return {s * std::cos(f), s * std::sin(f), z};
     }
 
-private:
+ private:
     std::mt19937 generator_;
 };
 
@@ -92,8 +96,8 @@ inline AreaShape random_shape(AreaKind kind, double distance, double aspect, Are
     const glm::dvec3 a = random.direction();
     const glm::dvec3 b = glm::normalize(glm::cross(a, random.direction()));
     s.half_x = a * size;
-    s.half_y = (b + a * (random.uniform(0, 1) < 0.3 ? random.uniform(-0.7, 0.7) : 0.0)) *
-               (aspect * size);
+    s.half_y =
+        (b + a * (random.uniform(0, 1) < 0.3 ? random.uniform(-0.7, 0.7) : 0.0)) * (aspect * size);
     s.center = random.direction() * (distance * size);
     if (kind == AreaKind::sphere) {
         s.half_x = s.half_y = glm::dvec3(0.0);
@@ -101,8 +105,7 @@ inline AreaShape random_shape(AreaKind kind, double distance, double aspect, Are
         s.center = random.direction() * (size * (1.0 + distance));
     } else if (distance < 0.3) {
         const double reach = kind == AreaKind::triangle ? 0.3 : 0.9;
-        s.center = glm::cross(a, b) * (distance * size) +
-                   s.half_x * random.uniform(-reach, reach) +
+        s.center = glm::cross(a, b) * (distance * size) + s.half_x * random.uniform(-reach, reach) +
                    s.half_y * random.uniform(-reach, reach);
     }
     if (distance > 3.0 && random.uniform(0, 1) < 0.5)
@@ -114,10 +117,10 @@ inline AreaShape random_shape(AreaKind kind, double distance, double aspect, Are
 /// length of the vector irradiance where that is larger.
 inline double faced_cosine(const AreaShape& s) {
     const double shares[] = {4.0, std::numbers::pi, 0.0, 0.5};
-    const double area = s.kind == AreaKind::sphere
-                            ? std::numbers::pi * s.radius * s.radius
-                            : shares[static_cast<int>(s.kind)] *
-                                  glm::length(glm::cross(s.half_x, s.half_y));
+    const double area =
+        s.kind == AreaKind::sphere
+            ? std::numbers::pi * s.radius * s.radius
+            : shares[static_cast<int>(s.kind)] * glm::length(glm::cross(s.half_x, s.half_y));
     const double flat = std::min(std::numbers::pi, area / glm::dot(s.center, s.center));
     const auto along = [](const glm::dvec3& to_light) { return to_light; };
     return std::max(flat, glm::length(integrate_area(s, along, 1e-8).value));
