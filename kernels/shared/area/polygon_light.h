@@ -160,28 +160,42 @@ SHARED_FN Corners scale_corners(Corners at, FV s) {
     return at;
 }
 
-// The parallelogram or, with c = d, triangle with these corners. `samples`: its irradiance by four
-// samples. square: of its size; area: half_x x half_y or as much of another shape.
-SHARED_FN FV polygon_cosine(FV3 center, Corners at, FV samples, FV square, FV3 area) {
-    FV low = min(min(at.a.z, at.b.z), min(at.c.z, at.d.z)) + center.z;
-    FV high = max(max(at.a.z, at.b.z), max(at.c.z, at.d.z)) + center.z;
+// Ways to integrate over a polygon.
+#define BY_SAMPLES 0.0f
+#define BY_EDGES 1.0f
+#define BY_CUT_EDGES 2.0f
+#define BY_DISTANT_EDGES 3.0f
+
+// square: of the size; area: half_x x half_y of a parallelogram, or as much of a triangle.
+SHARED_FN FV polygon_way(FV3 center, FV low, FV square, FV3 area) {
     FV distance2 = dot3(center, center);
-    MASK narrow = dot3(area, area) < square * distance2 * NARROW_LIGHT;
     MASK distant = square < distance2 * DISTANT_LIGHT;
-    // 0: samples; 1: edges; 2: edges of a light that may be cut; 3: as 2, of a distant light
-    FV way = lane_select(narrow, lane_select(distant, fv(3.0f), fv(1.0f)), fv(1.0f));
-    way = lane_select(square < distance2 * SMALL_LIGHT, fv(0.0f), way);
-    way = lane_select(low < 0.0f, lane_select(distant, fv(3.0f), fv(2.0f)), way);
+    MASK narrow = dot3(area, area) < square * distance2 * NARROW_LIGHT;
+    FV cut = lane_select(distant, fv(BY_DISTANT_EDGES), fv(BY_CUT_EDGES));
+    FV whole = lane_select(distant, lane_select(narrow, cut, fv(BY_EDGES)), fv(BY_EDGES));
+    whole = lane_select(square < distance2 * SMALL_LIGHT, fv(BY_SAMPLES), whole);
+    return lane_select(low < 0.0f, cut, whole);
+}
+
+// Height of the lowest corner.
+SHARED_FN FV lowest(FV3 center, Corners at) {
+    return min(min(at.a.z, at.b.z), min(at.c.z, at.d.z)) + center.z;
+}
+
+// The parallelogram or, with c = d, triangle with these corners; `samples`: its result by samples.
+SHARED_FN FV polygon_cosine(FV3 center, Corners at, FV way, FV samples) {
     FV cosine = samples;
-    if (lane_any(way == 1.0f))
-        cosine = lane_select(way == 1.0f, edge_sum(center, at) * -0.5f, cosine);
-    if (lane_any(way == 2.0f))
-        cosine = lane_select(way == 2.0f, cut_outline_sum(center, at, false) * -0.5f, cosine);
-    if (lane_any(way == 3.0f)) {
-        FV inverse = inverse_length(distance2);
+    if (lane_any(way == BY_EDGES))
+        cosine = lane_select(way == BY_EDGES, edge_sum(center, at) * -0.5f, cosine);
+    if (lane_any(way == BY_CUT_EDGES))
+        cosine =
+            lane_select(way == BY_CUT_EDGES, cut_outline_sum(center, at, false) * -0.5f, cosine);
+    if (lane_any(way == BY_DISTANT_EDGES)) {
+        FV inverse = inverse_length(dot3(center, center));
         FV sum = cut_outline_sum(scale3(center, inverse), scale_corners(at, inverse), true);
-        cosine = lane_select(way == 3.0f, sum * -0.5f, cosine);
+        cosine = lane_select(way == BY_DISTANT_EDGES, sum * -0.5f, cosine);
     }
+    FV high = max(max(at.a.z, at.b.z), max(at.c.z, at.d.z)) + center.z;
     cosine = lane_select(high > 0.0f, cosine, fv(0.0f));
     return max(min(cosine, fv(3.14159265f)), fv(0.0f));
 }
@@ -189,36 +203,45 @@ SHARED_FN FV polygon_cosine(FV3 center, Corners at, FV samples, FV square, FV3 a
 // Centre and half sides of a parallelogram.
 SHARED_FN FV parallelogram_cosine(FV3 center, FV3 half_x, FV3 half_y) {
     FV3 area = cross3(half_x, half_y);
-    FV samples = four_samples(center, scale3(half_x, fv(0.577350269f)),
-                              scale3(half_y, fv(0.577350269f)), -dot3(center, area));
     Corners at;
     at.c = add3(half_x, half_y);
     at.b = sub3(half_x, half_y);
-    at.a = scale3(at.c, fv(-1.0f));
-    at.d = scale3(at.b, fv(-1.0f));
+    at.a = fv3(-at.c.x, -at.c.y, -at.c.z);
+    at.d = fv3(-at.b.x, -at.b.y, -at.b.z);
     FV square = dot3(half_x, half_x) + dot3(half_y, half_y);
-    return polygon_cosine(center, at, samples, square, area);
+    FV way = polygon_way(center, lowest(center, at), square, area);
+    FV samples = fv(0.0f);
+    if (lane_any(way == BY_SAMPLES))
+        samples = four_samples(center, scale3(half_x, fv(0.577350269f)),
+                               scale3(half_y, fv(0.577350269f)), -dot3(center, area));
+    return polygon_cosine(center, at, way, samples);
+}
+
+// Two samples on each of two lines parallel to edge_y.
+SHARED_FN FV triangle_samples(FV3 corner, FV3 edge_x, FV3 edge_y, FV scale) {
+    FV3 left = add3(corner, scale3(edge_x, fv(0.155051026f)));
+    FV3 right = add3(corner, scale3(edge_x, fv(0.644948974f)));
+    FV of_left = scale * 0.159020691f, of_right = scale * 0.0909793091f;
+    return (sample_of(add3(left, scale3(edge_y, fv(0.178558726f))), of_left) +
+            sample_of(add3(left, scale3(edge_y, fv(0.666390246f))), of_left)) +
+           (sample_of(add3(right, scale3(edge_y, fv(0.0750311102f))), of_right) +
+            sample_of(add3(right, scale3(edge_y, fv(0.280019916f))), of_right));
 }
 
 // Centroid of a triangle, and its edges from the first corner to the second and third.
 SHARED_FN FV triangle_cosine(FV3 center, FV3 edge_x, FV3 edge_y) {
+    FV3 area = cross3(edge_x, edge_y);
     Corners at;
     at.a = scale3(add3(edge_x, edge_y), fv(-1.0f / 3.0f));
     at.b = add3(at.a, edge_x);
     at.c = add3(at.a, edge_y);
     at.d = at.c;
-    // Two samples on each of two lines parallel to edge_y.
-    FV3 area = cross3(edge_x, edge_y), first = add3(center, at.a);
-    FV scale = -dot3(center, area);
-    FV3 left = add3(first, scale3(edge_x, fv(0.155051026f)));
-    FV3 right = add3(first, scale3(edge_x, fv(0.644948974f)));
-    FV near = scale * 0.159020691f, far = scale * 0.0909793091f;  // of edge_y
-    FV samples = (sample_of(add3(left, scale3(edge_y, fv(0.178558726f))), near) +
-                  sample_of(add3(left, scale3(edge_y, fv(0.666390246f))), near)) +
-                 (sample_of(add3(right, scale3(edge_y, fv(0.0750311102f))), far) +
-                  sample_of(add3(right, scale3(edge_y, fv(0.280019916f))), far));
     FV square = dot3(edge_x, edge_x) + dot3(edge_y, edge_y);
-    return polygon_cosine(center, at, samples, square, area);
+    FV way = polygon_way(center, lowest(center, at), square, area);
+    FV samples = fv(0.0f);
+    if (lane_any(way == BY_SAMPLES))
+        samples = triangle_samples(add3(center, at.a), edge_x, edge_y, -dot3(center, area));
+    return polygon_cosine(center, at, way, samples);
 }
 
 #if defined(__cplusplus)

@@ -216,15 +216,17 @@ SHARED_FN FV ellipse_cosine(FV3 center, FV3 half_x, FV3 half_y, MASK large) {
 // An ellipse that shines to the side of half_x x half_y.
 SHARED_FN FV disk_cosine(FV3 center, FV3 half_x, FV3 half_y) {
     FV square = dot3(half_x, half_x) + dot3(half_y, half_y);
-    FV whole = four_samples(center, scale3(half_x, fv(0.5f)), scale3(half_y, fv(0.5f)),
-                            fv(-0.785398163f) * dot3(center, cross3(half_x, half_y)));
-    FV low = fma(half_x.z, half_x.z, half_y.z * half_y.z);
-    MASK cut = low > center.z * center.z;
+    FV reach2 = fma(half_x.z, half_x.z, half_y.z * half_y.z);
     MASK large = square > dot3(center, center) * SMALL_LIGHT;
-    FV exact = lane_select(cut, fv(1.0f), lane_select(large, fv(1.0f), fv(0.0f)));
+    MASK low = reach2 > center.z * center.z;
+    FV exact = lane_select(low, fv(1.0f), lane_select(large, fv(1.0f), fv(0.0f)));
+    FV cosine = fv(0.0f);
+    if (lane_any(exact < 1.0f))
+        cosine = four_samples(center, scale3(half_x, fv(0.5f)), scale3(half_y, fv(0.5f)),
+                              dot3(center, cross3(half_x, half_y)) * -0.785398163f);
     if (lane_any(exact > 0.0f))
-        whole = lane_select(exact > 0.0f, ellipse_cosine(center, half_x, half_y, large), whole);
-    return max(min(whole, fv(3.14159265f)), fv(0.0f));
+        cosine = lane_select(exact > 0.0f, ellipse_cosine(center, half_x, half_y, large), cosine);
+    return max(min(cosine, fv(3.14159265f)), fv(0.0f));
 }
 
 #if defined(__cplusplus)

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdlib>
 #include <iostream>
-#include <limits>
+#include <utility>
 
 #include "tests/measure/area/area_cases.h"
 
@@ -30,37 +30,34 @@ struct Worst {
     }
 };
 
-class AreaCosineAt : public ::testing::TestWithParam<AreaKind> {};
-
 // Cases of each distance; KILOLUX_AREA_CASES for longer runs.
 int cases() {
     const char* given = std::getenv("KILOLUX_AREA_CASES");
     return given ? std::atoi(given) : 40;
 }
 
-TEST_P(AreaCosineAt, EqualsTheIntegralAtAnyDistance) {
+TEST(AreaCosine, EqualsTheIntegralAtAnyDistance) {
     AreaRandom random(7);
     constexpr std::array<double, 8> kDistances{1e-4, 1e-2, 0.3, 1.0, 3.0, 30.0, 1e3, 1e5};
-    for (std::size_t band = 1; band < kDistances.size(); ++band) {
-        Worst worst;
-        for (int i = 0; i < cases(); ++i) {
-            const double distance = random.log_uniform(kDistances[band - 1], kDistances[band]);
-            const double aspect = i % 2 == 0 ? 1.0 : random.log_uniform(0.1, 1.0);
-            const AreaShape s = random_shape(GetParam(), distance, aspect, random);
-            worst.take(cosine_error(s, random), s);
+    for (const AreaKind kind :
+         {AreaKind::rectangle, AreaKind::disk, AreaKind::sphere, AreaKind::triangle})
+        for (std::size_t band = 1; band < kDistances.size(); ++band) {
+            Worst worst;
+            for (int i = 0; i < cases(); ++i) {
+                const double distance = random.log_uniform(kDistances[band - 1], kDistances[band]);
+                const double aspect = i % 2 == 0 ? 1.0 : random.log_uniform(0.1, 1.0);
+                const AreaShape s = random_shape(kind, distance, aspect, random);
+                worst.take(cosine_error(s, random), s);
+            }
+            std::cout << "kind " << static_cast<int>(kind) << " to " << kDistances[band]
+                      << " sizes: " << worst.error << '\n';
+            EXPECT_LT(worst.error, 2e-5) << worst.shape << " gives " << shared_cosine(worst.shape)
+                                         << " not " << reference_cosine(worst.shape, kUp).value;
         }
-        std::cout << "to " << kDistances[band] << " sizes: " << worst.error << '\n';
-        EXPECT_LT(worst.error, 2e-5) << worst.shape << " gives " << shared_cosine(worst.shape)
-                                     << " not " << reference_cosine(worst.shape, kUp).value;
-    }
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, AreaCosineAt,
-                         ::testing::Values(AreaKind::rectangle, AreaKind::disk, AreaKind::sphere,
-                                           AreaKind::triangle));
-
 // Rounding of edges' directions is not relative to the width: the error grows with the aspect.
-TEST(AreaCosineSlivers, ErrorIsARoundingOfTheLongerSide) {
+TEST(AreaCosineHard, ErrorIsARoundingOfTheLongerSide) {
     AreaRandom random(3);
     for (const AreaKind kind : {AreaKind::rectangle, AreaKind::disk, AreaKind::triangle}) {
         Worst worst;
@@ -158,22 +155,56 @@ TEST(AreaCosineHard, IsAlwaysANumberFromZeroToPi) {
     }
 }
 
-// Steps of 1e-6 of the distance or height change little, also where another form takes over.
-TEST(AreaCosineHard, IsContinuous) {
-    for (const AreaKind kind : {AreaKind::rectangle, AreaKind::disk, AreaKind::triangle}) {
-        for (const double aspect : {1.0, 0.1, 0.01}) {
-            double before = 0.0;
-            for (double d = 0.5; d < 100.0; d *= 1.0005) {
-                const double value = d * d *
-                                     shared_cosine(flat(kind, glm::dvec3(0.1, 0.3, 1.0) * d,
-                                                        {1, 0, 0}, {0, -aspect, 0.3 * aspect}));
-                if (before > 0.0) {
-                    EXPECT_NEAR(value / before, 1.0, d < 3.0 ? 3e-3 : 1e-3) << d;
+// Points near the light's plane: before the light, at its edges and corners, and beyond them.
+TEST(AreaCosineHard, EqualsTheIntegralNearTheLightsPlane) {
+    AreaRandom random(13);
+    Worst worst;
+    for (const AreaKind kind : {AreaKind::rectangle, AreaKind::disk, AreaKind::triangle})
+        for (const double u : {0.0, 0.9999, 1.0, 1.0001, 3.0, 100.0})
+            for (const double v : {0.0, 0.5, 1.0, 2.0})
+                for (const double height : {1e-7, 1e-4, 1e-2, 1.0}) {
+                    const glm::dvec3 a = random.direction();
+                    const glm::dvec3 b = glm::normalize(glm::cross(a, random.direction()));
+                    const AreaShape s =
+                        stored(flat(kind, a * u + b * v + glm::cross(a, b) * height, a, b));
+                    worst.take(cosine_error(s, random), s);
                 }
-                before = value;
+    std::cout << worst.error << '\n';
+    EXPECT_LT(worst.error, 2e-5) << worst.shape;
+}
+
+// The largest second difference of `value_at` over equal steps from 0 to 1, relative to `unit`.
+template <typename F>
+double largest_step(const F& value_at, int steps, double unit) {
+    double largest = 0.0, before = value_at(0.0), last = value_at(1.0 / steps);
+    for (int i = 2; i <= steps; ++i) {
+        const double value = value_at(static_cast<double>(i) / steps);
+        largest = std::max(largest, std::abs(value - 2.0 * last + before) / unit);
+        before = std::exchange(last, value);
+    }
+    return largest;
+}
+
+// Also where another form takes over.
+TEST(AreaCosineHard, IsContinuous) {
+    for (const AreaKind kind : {AreaKind::rectangle, AreaKind::disk, AreaKind::triangle})
+        for (const double aspect : {1.0, 0.1, 0.03}) {
+            const auto away = [&](double t) {
+                const double d = 0.5 * std::pow(200.0, t);
+                return d * d *
+                       shared_cosine(flat(kind, glm::dvec3(0.1, 0.3, 1.0) * d, {1, 0, 0},
+                                          {0, -aspect, 0.3 * aspect}));
+            };
+            EXPECT_LT(largest_step(away, 10'000, aspect), 3e-4) << static_cast<int>(kind);
+            for (const double d : {0.7, 2.0, 3.0, 10.0, 30.0}) {
+                const auto up = [&](double t) {
+                    return d * d *
+                           shared_cosine(flat(kind, {0.3, d, 1.5 * (2.0 * t - 1.0)}, {1, 0, 0},
+                                              {0.1, 0, aspect}));
+                };
+                EXPECT_LT(largest_step(up, 10'000, aspect), 3e-4) << static_cast<int>(kind) << d;
             }
         }
-    }
 }
 
 }  // namespace
