@@ -33,7 +33,7 @@ struct Worst {
 // Cases of each distance; KILOLUX_AREA_CASES for longer runs.
 int cases() {
     const char* given = std::getenv("KILOLUX_AREA_CASES");
-    return given ? std::atoi(given) : 40;
+    return given ? std::atoi(given) : 25;
 }
 
 TEST(AreaCosine, EqualsTheIntegralAtAnyDistance) {
@@ -54,6 +54,25 @@ TEST(AreaCosine, EqualsTheIntegralAtAnyDistance) {
             EXPECT_LT(worst.error, 2e-5) << worst.shape << " gives " << shared_cosine(worst.shape)
                                          << " not " << reference_cosine(worst.shape, kUp).value;
         }
+}
+
+// The largest lights that few samples integrate, and the nearest whose edges' terms cancel.
+TEST(AreaCosine, EqualsTheIntegralWhereFormsMeet) {
+    AreaRandom random(17);
+    for (const AreaKind kind : {AreaKind::rectangle, AreaKind::disk, AreaKind::triangle}) {
+        Worst worst;
+        for (int i = 0; i < 12 * cases(); ++i) {
+            const float limit = i % 3 == 0 ? DISTANT_LIGHT : SMALL_LIGHT;
+            AreaShape s = random_shape(kind, 1.0, random.log_uniform(0.2, 1.0), random);
+            const double square = glm::dot(s.half_x, s.half_x) + glm::dot(s.half_y, s.half_y);
+            const double share = i % 2 == 0 ? 1.001 : 0.999;
+            s.center *= std::sqrt(square / (limit * share) / glm::dot(s.center, s.center));
+            s = stored(s);
+            worst.take(cosine_error(s, random), s);
+        }
+        std::cout << "kind " << static_cast<int>(kind) << ": " << worst.error << '\n';
+        EXPECT_LT(worst.error, 1.2e-5) << worst.shape;
+    }
 }
 
 // Rounding of edges' directions is not relative to the width: the error grows with the aspect.
@@ -160,8 +179,8 @@ TEST(AreaCosineHard, EqualsTheIntegralNearTheLightsPlane) {
     AreaRandom random(13);
     Worst worst;
     for (const AreaKind kind : {AreaKind::rectangle, AreaKind::disk, AreaKind::triangle})
-        for (const double u : {0.0, 0.9999, 1.0, 1.0001, 3.0, 100.0})
-            for (const double v : {0.0, 0.5, 1.0, 2.0})
+        for (const double u : {0.0, 0.9999, 1.0, 1.0001, 3.0})
+            for (const double v : {0.0, 0.5, 1.0})
                 for (const double height : {1e-7, 1e-4, 1e-2, 1.0}) {
                     const glm::dvec3 a = random.direction();
                     const glm::dvec3 b = glm::normalize(glm::cross(a, random.direction()));
