@@ -71,7 +71,7 @@ TEST(AreaCosine, EqualsTheIntegralWhereFormsMeet) {
             worst.take(cosine_error(s, random), s);
         }
         std::cout << "kind " << static_cast<int>(kind) << ": " << worst.error << '\n';
-        EXPECT_LT(worst.error, 1.2e-5) << worst.shape;
+        EXPECT_LT(worst.error, 6e-6) << worst.shape;
     }
 }
 
@@ -181,7 +181,7 @@ TEST(AreaCosineHard, EqualsTheIntegralNearTheLightsPlane) {
     for (const AreaKind kind : {AreaKind::rectangle, AreaKind::disk, AreaKind::triangle})
         for (const double u : {0.0, 0.9999, 1.0, 1.0001, 3.0})
             for (const double v : {0.0, 0.5, 1.0})
-                for (const double height : {1e-7, 1e-4, 1e-2, 1.0}) {
+                for (const double height : {1e-5, 1e-3, 0.1}) {
                     const glm::dvec3 a = random.direction();
                     const glm::dvec3 b = glm::normalize(glm::cross(a, random.direction()));
                     const AreaShape s =
