@@ -5,15 +5,15 @@
 // linear map of a light is one of these lights too, so linearly transformed cosines use this text.
 //
 // A light above the horizon: Lambert's sum over its edges. Its terms cancel where the light is
-// small or narrow as seen from the point, so two other forms take over there: four samples of
-// Gauss's rule for small lights, and exact differences of the terms of opposite edges for narrow
-// ones. A light that the horizon cuts: each edge is cut, and the horizon adds one.
+// small or narrow as seen from the point. Small lights have four samples of Gauss's rule instead,
+// narrow ones the differences of the edges' weights from that of the centre. A light that the
+// horizon cuts: each edge is cut, and the horizon adds one.
 #ifndef KILOLUX_SHARED_AREA_POLYGON_LIGHT_H
 #define KILOLUX_SHARED_AREA_POLYGON_LIGHT_H
 #include "kernels/shared/types.h"
 
-// Above these squares of size / distance the sum over edges is used. Both forms have their largest
-// errors there: tests/measure/area/area_cosine_test.cpp prints them.
+// Below this square of size / distance samples are used. Both forms have their largest errors
+// there: tests/measure/area/area_cosine_test.cpp prints them.
 #define SMALL_LIGHT 0.003f
 // Below this square of size / distance distant_edge can be used.
 #define DISTANT_LIGHT 0.1f
@@ -26,7 +26,7 @@
 namespace kilolux {
 #endif
 
-// The edges of a light from its first to its fourth corner: offsets from its centre.
+// The corners of a light in the order of its outline: offsets from its centre.
 SHARED_PLAIN_STRUCT(Corners) { FV3 a, b, c, d; };
 
 // angle / sin(angle) for x = cos(angle) in [0, 1], within 5e-7.

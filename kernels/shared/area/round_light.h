@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The irradiance of spheres and ellipses of luminance 1, in the frame and unit of polygon_light.h.
-// Exact for a sphere, and for an ellipse above the horizon. The horizon cuts an ellipse as it does
-// the circular cone about the same axis that touches the horizon with it.
+// In closed form, but where the horizon cuts a small ellipse: there the cut is that of the circular
+// cone about the same axis that touches the horizon with it.
 #ifndef KILOLUX_SHARED_AREA_ROUND_LIGHT_H
 #define KILOLUX_SHARED_AREA_ROUND_LIGHT_H
 #include "kernels/shared/area/polygon_light.h"
@@ -41,9 +41,9 @@ SHARED_FN FV cut_cone_cosine(FV axis_z, FV sine2, FV cosine2) {
     return fma(axis_z, angle, straight + lane_divide(bent, sine2)) * 0.318309886f;
 }
 
-// The mean over a circular cone, weighted by the cosine to its axis, of ... the irradiance as a
-// share of that with the cone's axis along the normal. sine2, cosine2: squares of the sine and
-// cosine of the cone's half angle, not 0.
+// The irradiance of a circular cone as a share of that with its axis along the normal. axis_z: the
+// cosine between both. sine2, cosine2: squares of the sine and cosine of the cone's half angle,
+// above 0.
 SHARED_FN FV cone_cosine(FV axis_z, FV sine2, FV cosine2) {
     FV share = max(axis_z, fv(0.0f));
     MASK cut = axis_z * axis_z < sine2;
