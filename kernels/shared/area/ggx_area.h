@@ -181,7 +181,7 @@ SHARED_FN LobeLight area_ggx(AreaFrame frame, GgxLobe lobe, AreaLobe area, SeenL
     LobeRatio ratio = lobe_ratio(frame, lobe, area, l, q2);
     FV covered = cosine * fv(0.318309886f);
     FV near2 = fma(fv(0.25f) * point.size2, inverse * inverse, q2);
-    FV weight = (fv(1.0f) - covered) * lane_divide(q2, near2);
+    FV weight = (fv(1.0f) - covered) * lane_divide(q2, max(near2, fv(1e-30f)));
     LobeLight sent;
     sent.light = fv(2.0f) * area.albedo * cosine * bounded_ratio(ratio.over, ratio.below, weight);
     sent.rise = fma(covered, area.rise - ratio.rise, ratio.rise);
