@@ -11,6 +11,10 @@
 #define KILOLUX_SHARED_LIGHT_PROFILE_H
 #include "kernels/shared/types.h"
 
+#ifndef HAS_LIGHT_PROFILES
+#define HAS_LIGHT_PROFILES 0
+#endif
+
 #define PROFILE_HEAD 4u
 #define NO_WEB (-1.0f)
 // A web that ends at a vertical angle extends so far beyond it [rad]: five roundings of the angle.
@@ -82,6 +86,8 @@ float profile_head(LightProfiles from, uint i);
 float profile_value(LightProfiles from, uint i);
 #endif
 
+// A GLSL shader of a scene without webs defines none of what reads them.
+#if HAS_PROFILE_POINTER || HAS_LIGHT_PROFILES
 // The angle of (x, y) from +X towards +Y, from 0 to pi for y >= 0 [rad]. Sums, products and one
 // division: the same bits for every width. Within 4e-7 of the angle; 0 for (0, 0).
 SHARED_FN FV half_turn_angle(FV x, FV y) {
@@ -152,6 +158,7 @@ SHARED_FN FV profile_share(LightProfiles from, uint light, FV3 to_light) {
     float end = last_row / per_radian + PROFILE_EDGE;
     return lane_select(angle > fv(end), fv(0.0f), min(max(share, fv(0.0f)), fv(1.0f)));
 }
+#endif
 
 #if defined(__cplusplus)
 }  // namespace kilolux
