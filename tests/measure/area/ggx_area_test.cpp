@@ -129,8 +129,8 @@ std::vector<double> numbers_of(std::string line) {
     return {std::istream_iterator<double>(text), {}};
 }
 
-// Every third row; `margin` [%] is more than the rounding of what is published.
-TEST(GgxArea, ErrorsAreThePublishedOnes) {
+// Every fourth row; the margins [%] are more than the rounding of what is published.
+TEST(GgxArea, ErrorsAreAtMostThePublishedOnes) {
     std::ifstream file(source_root() + "/host/measure/results/ggx_area_error.md");
     std::string line;
     while (std::getline(file, line) && line != std::string("## ") + kOfItself) continue;
@@ -147,8 +147,8 @@ TEST(GgxArea, ErrorsAreThePublishedOnes) {
                 cell_errors(AreaKind::rectangle, lobe, kTableSizes[s], cell_number(r, v, s))
                     .of_itself;
             const double mean = published[2 + 2 * s], worst = published[3 + 2 * s];
-            EXPECT_NEAR(100.0 * now.mean, mean, 0.1 + 0.05 * mean) << line << kTableSizes[s];
-            EXPECT_NEAR(100.0 * now.worst, worst, 0.2 + 0.05 * worst) << line << kTableSizes[s];
+            EXPECT_LT(100.0 * now.mean, 0.1 + 1.05 * mean) << line << kTableSizes[s];
+            EXPECT_LT(100.0 * now.worst, 0.2 + 1.05 * worst) << line << kTableSizes[s];
         }
     }
     EXPECT_TRUE(file);
