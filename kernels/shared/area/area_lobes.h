@@ -51,11 +51,11 @@ SHARED_FN FV sheen_area_light(ShadingPoint p, FV3 l, FV cosine) {
 SHARED_FN LightSum add_area_lobes(LightSum sum, ShadingPoint p, SeenLight view, FV weight,
                                   float4 color) {
     SeenLight framed = light_in_frame(p.frame, view);
-    FV cosine = light_cosine(framed);
+    FV cosine = light_cosine(framed, false);
 #if !(HAS_COAT && HAS_COAT_NORMAL)
     if (!lane_any(cosine > fv(0.0f))) return sum;
 #endif
-    FV3 v = typical_vector(framed, typical_point(with_half_sides(framed), fill_of(framed)));
+    FV3 v = lifted_vector(with_half_sides(framed), framed.at.center);
     FV3 l = scale3(v, lane_rsqrt(max(dot3(v, v), fv(1e-30f))));
     FV cos2_half = fma(p.frame.eye_x, l.x, fma(p.frame.eye_z, l.z, fv(1.0f)));  // 2 (v.h)^2
     FV cos_half = lane_sqrt(max(fv(0.5f) * cos2_half, fv(0.0f)));
@@ -85,7 +85,7 @@ SHARED_FN LightSum add_area_lobes(LightSum sum, ShadingPoint p, SeenLight view, 
 #else
 SHARED_FN LightSum add_area_lobes(LightSum sum, ShadingPoint p, SeenLight view, FV weight,
                                   float4 color) {
-    FV cosine = light_cosine(light_in_frame(p.frame, view));
+    FV cosine = light_cosine(light_in_frame(p.frame, view), false);
     sum.diffuse = add_scaled(sum.diffuse, weight * cosine, color);
     return sum;
 }

@@ -24,15 +24,15 @@
 namespace kilolux {
 #endif
 
-// A light as a surface point sees it: SHAPE_RECTANGLE, SHAPE_DISK or SHAPE_TRIANGLE, with its
-// centre relative to the point.
+// A light as a surface point sees it, with its centre relative to the point. A sphere is the disk
+// that fills the same solid angle.
 SHARED_PLAIN_STRUCT(SeenLight) {
     uint kind;
     FlatLight at;
 };
 
-// The light of a row with a size, its centre at `v`, in the row's axes. A sphere is the disk that
-// fills the same solid angle; a light of two sides turns the one that shines on the point to it.
+// The light of a row with a size, its centre at `v`, in the row's axes. A light of two sides turns
+// the one that shines on the point to it.
 SHARED_FN SeenLight seen_light(FV3 v, LightShape shape) {
     SeenLight light;
     light.kind = shape_kind(shape);
@@ -40,7 +40,6 @@ SHARED_FN SeenLight seen_light(FV3 v, LightShape shape) {
     light.at.half_x = fv3(fv(shape.half_x.x), fv(shape.half_x.y), fv(shape.half_x.z));
     light.at.half_y = fv3(fv(shape.half_y.x), fv(shape.half_y.y), fv(shape.half_y.z));
     if (light.kind == SHAPE_SPHERE) {
-        light.kind = SHAPE_DISK;
         light.at = sphere_disk(v, lane_sqrt(dot3(light.at.half_x, light.at.half_x)));
     } else if (shines_both_ways(shape)) {
         FV behind = dot3(v, cross3(light.at.half_x, light.at.half_y));
@@ -57,12 +56,17 @@ SHARED_FN SeenLight light_in_frame(AreaFrame frame, SeenLight light) {
     return light;
 }
 
-// The irradiance of luminance 1 on a surface of normal +z [sr].
-SHARED_FN FV light_cosine(SeenLight light) {
+// The irradiance of luminance 1 on a surface of normal +z [sr]; is_lobe: of a transformed light.
+SHARED_FN FV light_cosine(SeenLight light, bool is_lobe) {
     FlatLight at = light.at;
-    if (light.kind == SHAPE_RECTANGLE) return parallelogram_cosine(at.center, at.half_x, at.half_y);
-    if (light.kind == SHAPE_TRIANGLE) return triangle_cosine(at.center, at.half_x, at.half_y);
-    return disk_cosine(at.center, at.half_x, at.half_y);
+    if (light.kind == SHAPE_RECTANGLE) {
+        return parallelogram_cosine(at.center, at.half_x, at.half_y, is_lobe);
+    }
+    if (light.kind == SHAPE_TRIANGLE) {
+        return triangle_cosine(at.center, at.half_x, at.half_y, is_lobe);
+    }
+    if (light.kind == SHAPE_SPHERE && !is_lobe) return facing_disk_cosine(at.center, at.half_x);
+    return disk_cosine(at.center, at.half_x, at.half_y, is_lobe);
 }
 
 // The half sides of a parallelogram whose points have the variances of a triangle's.
@@ -101,7 +105,9 @@ SHARED_FN TypicalPoint typical_point(FlatLight at, FV fill) {
     return point;
 }
 
-SHARED_FN FV fill_of(SeenLight light) { return fv(light.kind == SHAPE_DISK ? 1.0f : 0.75f); }
+SHARED_FN FV fill_of(SeenLight light) {
+    return fv(light.kind == SHAPE_DISK || light.kind == SHAPE_SPHERE ? 1.0f : 0.75f);
+}
 
 SHARED_FN FV3 point_of(FlatLight at, TypicalPoint point) {
     return fv3(fma(point.x, at.half_x.x, fma(point.y, at.half_y.x, at.center.x)),
@@ -109,16 +115,20 @@ SHARED_FN FV3 point_of(FlatLight at, TypicalPoint point) {
                fma(point.x, at.half_x.z, fma(point.y, at.half_y.z, at.center.z)));
 }
 
-// A light's typical point, not below the horizon.
-SHARED_FN FV3 typical_vector(SeenLight light, TypicalPoint point) {
-    FlatLight at = with_half_sides(light);
-    FV3 v = point_of(at, point);
+// A point of a light, or one above it where the light may be below the horizon.
+SHARED_FN FV3 lifted_vector(FlatLight at, FV3 v) {
     // Where the horizon cuts the light, the mean height of the rest is about half of the largest;
     // less where it cuts little, so that nothing jumps.
     FV reach = max(at.half_x.z, -at.half_x.z) + max(at.half_y.z, -at.half_y.z);
     FV least = min(fv(0.5f) * (reach + at.center.z), fv(2.0f) * (reach - at.center.z));
     v.z = max(v.z, max(least, fv(0.0f)));
     return v;
+}
+
+// A light's typical point, not below the horizon.
+SHARED_FN FV3 typical_vector(SeenLight light, TypicalPoint point) {
+    FlatLight at = with_half_sides(light);
+    return lifted_vector(at, point_of(at, point));
 }
 
 // The fraction of 2 pi D V, over that of the transformed cosine, in a direction of the frame.
@@ -172,7 +182,7 @@ SHARED_FN LobeLight area_ggx(AreaFrame frame, GgxLobe lobe, AreaLobe area, SeenL
     bent.at.center = transformed(area, light.at.center);
     bent.at.half_x = transformed(area, light.at.half_x);
     bent.at.half_y = transformed(area, light.at.half_y);
-    FV cosine = light_cosine(bent);
+    FV cosine = light_cosine(bent, true);
     TypicalPoint point = typical_point(with_half_sides(bent), fill_of(light));
     FV3 v = typical_vector(light, point);
     FV inverse = lane_rsqrt(max(dot3(v, v), fv(1e-30f)));

@@ -14,12 +14,17 @@
 
 // Below this square of size / distance samples are used. Both forms have their largest errors
 // there: tests/measure/area/area_cosine_test.cpp prints them.
-#define SMALL_LIGHT 0.003f
+#define SMALL_LIGHT 0.005f
+#define SMALL_TRIANGLE 0.003f
+// As SMALL_LIGHT for the transformed lights of a lobe, whose fit is off by more than the samples:
+// lights that the horizon cuts, too.
+#define SMALL_LOBE_LIGHT 0.03f
 // Below this one distant_edge can be used, and below the next it is where the horizon cuts.
 #define DISTANT_LIGHT 0.1f
-#define DISTANT_CUT_LIGHT 3e-4f
+#define DISTANT_CUT_LIGHT 8e-3f
 // Below this square of width / distance a light is narrow.
 #define NARROW_LIGHT 2e-4f
+#define NARROW_TRIANGLE 3e-3f
 // Squares of lengths below this one count as 0 [m^2].
 #define SMALLEST_SQUARE 1e-36f
 
@@ -58,10 +63,10 @@ SHARED_FN FV edge_term(FV3 p, FV3 q, FV inverse) {
     return term;
 }
 
-// z / r^4 at a point, times `scale`.
+// z / r^4 at a point, times `scale`; 0 below the horizon.
 SHARED_FN FV sample_of(FV3 point, FV scale) {
     FV inverse = lane_divide(fv(1.0f), max(dot3(point, point), fv(SMALLEST_SQUARE)));
-    return (point.z * inverse) * (scale * inverse);
+    return (max(point.z, fv(0.0f)) * inverse) * (scale * inverse);
 }
 
 // Four samples at center +- x +- y, each of weight 1.
@@ -207,19 +212,23 @@ SHARED_FN Corners scale_corners(Corners at, FV s) {
 #define BY_CUT_EDGES 2.0f
 #define BY_DISTANT_EDGES 3.0f
 
-// square: of the size; area: half_x x half_y of a parallelogram, or as much of a triangle.
-SHARED_FN FV polygon_way(FV3 center, Corners at, FV square, FV3 area) {
+// square: of the size; area: half_x x half_y of a parallelogram, or as much of a triangle; is_lobe:
+// whether SMALL_LOBE_LIGHT holds in place of `limit`.
+SHARED_FN FV polygon_way(FV3 center, Corners at, FV square, FV3 area, float limit,
+                         float narrow_limit, bool is_lobe) {
     FV low = min(min(at.a.z, at.b.z), min(at.c.z, at.d.z)) + center.z;
     FV high = max(max(at.a.z, at.b.z), max(at.c.z, at.d.z)) + center.z;
     FV distance2 = dot3(center, center);
     MASK distant = square < distance2 * DISTANT_LIGHT;
-    MASK narrow = dot3(area, area) < square * distance2 * NARROW_LIGHT;
+    MASK narrow = dot3(area, area) < square * distance2 * narrow_limit;
     FV cut = lane_select(narrow, fv(BY_DISTANT_EDGES), fv(BY_CUT_EDGES));
     FV whole = lane_select(narrow, fv(BY_DISTANT_EDGES), fv(BY_EDGES));
     cut = lane_select(distant, cut, fv(BY_CUT_EDGES));
     cut = lane_select(square < distance2 * DISTANT_CUT_LIGHT, fv(BY_DISTANT_EDGES), cut);
     whole = lane_select(distant, whole, fv(BY_EDGES));
-    whole = lane_select(square < distance2 * SMALL_LIGHT, fv(BY_SAMPLES), whole);
+    MASK small = square < distance2 * (is_lobe ? SMALL_LOBE_LIGHT : limit);
+    whole = lane_select(small, fv(BY_SAMPLES), whole);
+    if (is_lobe) cut = lane_select(small, fv(BY_SAMPLES), cut);
     FV way = lane_select(low < 0.0f, cut, whole);
     FV shown = lane_select(dot3(center, area) < 0.0f, high, fv(0.0f));
     return lane_select(shown > 0.0f, way, fv(BY_NONE));
@@ -242,7 +251,7 @@ SHARED_FN FV polygon_cosine(FV3 center, Corners at, FV way, FV samples) {
 }
 
 // Centre and half sides of a parallelogram.
-SHARED_FN FV parallelogram_cosine(FV3 center, FV3 half_x, FV3 half_y) {
+SHARED_FN FV parallelogram_cosine(FV3 center, FV3 half_x, FV3 half_y, bool is_lobe) {
     FV3 area = cross3(half_x, half_y);
     Corners at;
     at.c = add3(half_x, half_y);
@@ -250,7 +259,7 @@ SHARED_FN FV parallelogram_cosine(FV3 center, FV3 half_x, FV3 half_y) {
     at.a = fv3(-at.c.x, -at.c.y, -at.c.z);
     at.d = fv3(-at.b.x, -at.b.y, -at.b.z);
     FV square = dot3(half_x, half_x) + dot3(half_y, half_y);
-    FV way = polygon_way(center, at, square, area);
+    FV way = polygon_way(center, at, square, area, SMALL_LIGHT, NARROW_LIGHT, is_lobe);
     FV samples = fv(0.0f);
     if (lane_any(way == BY_SAMPLES))
         samples = four_samples(center, scale3(half_x, fv(0.577350269f)),
@@ -270,7 +279,7 @@ SHARED_FN FV triangle_samples(FV3 corner, FV3 edge_x, FV3 edge_y, FV scale) {
 }
 
 // Centroid of a triangle, and its edges from the first corner to the second and third.
-SHARED_FN FV triangle_cosine(FV3 center, FV3 edge_x, FV3 edge_y) {
+SHARED_FN FV triangle_cosine(FV3 center, FV3 edge_x, FV3 edge_y, bool is_lobe) {
     FV3 area = cross3(edge_x, edge_y);
     Corners at;
     at.a = scale3(add3(edge_x, edge_y), fv(-1.0f / 3.0f));
@@ -278,7 +287,7 @@ SHARED_FN FV triangle_cosine(FV3 center, FV3 edge_x, FV3 edge_y) {
     at.c = add3(at.a, edge_y);
     at.d = at.c;
     FV square = dot3(edge_x, edge_x) + dot3(edge_y, edge_y);
-    FV way = polygon_way(center, at, square, area);
+    FV way = polygon_way(center, at, square, area, SMALL_TRIANGLE, NARROW_TRIANGLE, is_lobe);
     FV samples = fv(0.0f);
     if (lane_any(way == BY_SAMPLES))
         samples = triangle_samples(add3(center, at.a), edge_x, edge_y, -dot3(center, area));

@@ -70,6 +70,16 @@ SHARED_FN FV sphere_cosine(FV3 center, FV radius) {
 // Centre and half axes of an ellipse.
 SHARED_PLAIN_STRUCT(FlatLight) { FV3 center, half_x, half_y; };
 
+// The irradiance of a disk that is perpendicular to the direction to its centre, and shines to the
+// origin: of a sphere's solid angle. Exact.
+SHARED_FN FV facing_disk_cosine(FV3 center, FV3 half_x) {
+    FV distance2 = dot3(center, center), radius2 = dot3(half_x, half_x);
+    FV inverse2 = lane_divide(fv(1.0f), max(distance2 + radius2, fv(SMALLEST_SQUARE)));
+    FV sine2 = max(radius2 * inverse2, fv(1e-37f));
+    FV axis_z = center.z * inverse_length(distance2);
+    return fv(3.14159265f) * sine2 * cone_cosine(axis_z, sine2, distance2 * inverse2);
+}
+
 // The disk that fills the same solid angle as a sphere outside of which the origin is. It shines to
 // the origin.
 SHARED_FN FlatLight sphere_disk(FV3 center, FV radius) {
@@ -213,19 +223,27 @@ SHARED_FN FV ellipse_cosine(FV3 center, FV3 half_x, FV3 half_y, MASK large) {
     return lane_select(cone.faced > 0.0f, cosine, fv(0.0f));
 }
 
-// An ellipse that shines to the side of half_x x half_y.
-SHARED_FN FV disk_cosine(FV3 center, FV3 half_x, FV3 half_y) {
+// An ellipse that shines to the side of half_x x half_y. is_lobe: as of polygons.
+SHARED_FN FV disk_cosine(FV3 center, FV3 half_x, FV3 half_y, bool is_lobe) {
     FV square = dot3(half_x, half_x) + dot3(half_y, half_y);
     FV reach2 = fma(half_x.z, half_x.z, half_y.z * half_y.z);
-    MASK large = square > dot3(center, center) * SMALL_LIGHT;
+    FV facing = -dot3(center, cross3(half_x, half_y));
+    MASK large = square > dot3(center, center) * (is_lobe ? SMALL_LOBE_LIGHT : SMALL_LIGHT);
     MASK low = reach2 > center.z * center.z;
-    FV exact = lane_select(low, fv(1.0f), lane_select(large, fv(1.0f), fv(0.0f)));
+    FV way = lane_select(large, fv(BY_EDGES), fv(BY_SAMPLES));
+    if (!is_lobe) way = lane_select(low, fv(BY_EDGES), way);
+    FV shown = lane_select(low, facing, lane_select(center.z > 0.0f, facing, fv(0.0f)));
+    way = lane_select(shown > 0.0f, way, fv(BY_NONE));
     FV cosine = fv(0.0f);
-    if (lane_any(exact < 1.0f))
-        cosine = four_samples(center, scale3(half_x, fv(0.5f)), scale3(half_y, fv(0.5f)),
-                              dot3(center, cross3(half_x, half_y)) * -0.785398163f);
-    if (lane_any(exact > 0.0f))
-        cosine = lane_select(exact > 0.0f, ellipse_cosine(center, half_x, half_y, large), cosine);
+    if (lane_any(way == BY_SAMPLES)) {
+        FV samples = four_samples(center, scale3(half_x, fv(0.5f)), scale3(half_y, fv(0.5f)),
+                                  facing * 0.785398163f);
+        cosine = lane_select(way == BY_SAMPLES, samples, cosine);
+    }
+    if (lane_any(way == BY_EDGES)) {
+        FV exact = ellipse_cosine(center, half_x, half_y, large);
+        cosine = lane_select(way == BY_EDGES, exact, cosine);
+    }
     return max(min(cosine, fv(3.14159265f)), fv(0.0f));
 }
 

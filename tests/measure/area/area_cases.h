@@ -36,11 +36,11 @@ inline double shared_cosine(const AreaShape& s) {
     const FV3 center = float3_of(s.center), x = float3_of(s.half_x), y = float3_of(s.half_y);
     switch (s.kind) {
         case AreaKind::rectangle:
-            return parallelogram_cosine(center, x, y);
+            return parallelogram_cosine(center, x, y, false);
         case AreaKind::triangle:
-            return triangle_cosine(center, x, y);
+            return triangle_cosine(center, x, y, false);
         case AreaKind::disk:
-            return disk_cosine(center, x, y);
+            return disk_cosine(center, x, y, false);
         case AreaKind::sphere:
             break;
     }
