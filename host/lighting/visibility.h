@@ -48,6 +48,7 @@ class Visibility {
         bool operator==(const Source&) const = default;
     };
 
+    bool has_slots_;  // of lights with a size
     CastShadows cast_;
     std::optional<DrawShadows> draw_;  // with sampled shadows
     std::optional<Shade> unshadowed_;  // likewise

@@ -41,7 +41,17 @@ kernel void draw_shadows(LIT_ARGS, WORD_ARGS(), SAMPLE_ARGS) {
             uint light = lists[clusters[i].list_begin + j];
             LightSum one = EVALUATE(zero_sum(), p, LIGHT_AT(lights, light), extras, light);
             FV alone = light_alone(pick, one);
-            put_bits(bits, directional_count + j, mine & picks_light(pick, alone, light), words);
+            uint first = directional_count + j * light_slots(rays);
+#if HAS_AREA_LIGHTS
+            if (has_size(shape_of_light(extras, light))) {
+                FV pairs = picked_pairs(pick, alone, light);
+                for (uint slot = 0; lane_any(mine & casts_slot(pairs, slot)); ++slot) {
+                    put_bits(bits, first + slot, mine & casts_slot(pairs, slot), words);
+                }
+                continue;
+            }
+#endif
+            put_bits(bits, first, mine & picks_light(pick, alone, light), words);
         }
     }
 }

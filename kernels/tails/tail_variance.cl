@@ -19,8 +19,16 @@
 #endif
 
 // The seen share of a light that adds `alone`: exact, or an unbiased estimate.
-static inline FV seen_share(ShadowPick pick, ShadowBits bits, uint i, FV alone) {
+static inline FV seen_share(ShadowPick pick, ShadowBits bits, uint i, FV alone, LightExtras extras,
+                            uint light) {
 #if SAMPLED_SHADOWS
+#if HAS_AREA_LIGHTS
+    if (has_size(shape_of_light(extras, light))) {
+        FV pairs = picked_pairs(pick, alone, light);
+        HiddenRays hidden = count_hidden(bits, i, pairs);
+        return fv(1.0f) - area_weight(mean_pairs(pick, alone), pairs, hidden);
+    }
+#endif
     FV q = pick_probability(pick, alone);
     return lane_select(sees_light(bits, i), fv(1.0f) - fv(1.0f) / q, fv(1.0f));
 #elif SHADOWS
@@ -60,7 +68,9 @@ kernel void tail_variance(LIT_ARGS, WORD_ARGS(const), SAMPLE_ARGS,
             LightSum one = EVALUATE(zero_sum(), p, light, extras, index);
             FV alone = light_alone(pick, one);
             FV missed = fv(1.0f) - fv(1.0f) / random_range_weight(light, dot3(v, v));
-            FV share = seen_share(pick, bits, directional_count + j, alone);
+            FV share =
+                seen_share(pick, bits, directional_count + j * light_slots(pick.rays), alone, extras,
+                           index);
             sum += lane_select(mine, alone * alone * missed * share, fv(0.0f));
         }
     }
