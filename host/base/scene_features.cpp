@@ -13,6 +13,7 @@ constexpr SceneFeature kTable[] = {
     {"spot-lights", &F::spot_lights, "HAS_SPOT_LIGHTS", true},
     {"light-profiles", &F::light_profiles, "HAS_LIGHT_PROFILES"},
     {"directional-lights", &F::directional_lights, "HAS_DIRECTIONAL_LIGHTS", true},
+    {"area-lights", &F::area_lights, "HAS_AREA_LIGHTS"},
     {"metallic", &F::metallic, "HAS_METALLIC", true},
     {"emissive", &F::emissive, nullptr, true},
     {"", &F::material, "HAS_MATERIAL"},

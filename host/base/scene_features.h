@@ -17,6 +17,7 @@ struct SceneFeatures {
     bool point_lights = false;
     bool spot_lights = false;
     bool directional_lights = false;
+    bool area_lights = false;      // lights with a size
     bool metallic = false;         // any metal: tinted specular reflection
     bool emissive = false;         // surfaces that emit light
     bool material = false;         // metallic or emissive: the G-buffer has a plane for them

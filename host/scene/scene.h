@@ -127,18 +127,24 @@ struct Instance {
     bool operator==(const Instance&) const = default;
 };
 
-enum class LightType : std::uint8_t { point, spot, directional };
+enum class LightType : std::uint8_t { point, spot, directional, rectangle, disk, sphere, triangle };
 
 struct SceneLight {
-    glm::dvec3 position{0.0};          // [m], world
-    glm::dvec3 direction{0, 0, -1};    // unit, the way the light travels (spot, directional)
-    glm::dvec3 side{1, 0, 0};          // unit, perpendicular to direction: the rotation about it
-    glm::vec3 intensity{1.0f};         // linear Rec. 709; [cd], directional [lx]
+    glm::dvec3 position{0.0};        // [m], world
+    glm::dvec3 direction{0, 0, -1};  // unit, the way the light travels; not of points, spheres
+    glm::dvec3 side{1, 0, 0};        // unit, perpendicular to direction: the rotation about it
+    // Linear Rec. 709; directional [lx], else [cd], of flat lights straight ahead.
+    glm::vec3 intensity{1.0f};
     float range = 0.0f;                // [m]; 0: not given, see light_ranges.h
     float inner_cone = 0.0f;           // half angle [rad]
     float outer_cone = 0.7853981634f;  // half angle [rad]
+    float width = 0.0f;                // [m], along `side`: of a disk, which may be an ellipse, too
+    float height = 0.0f;               // [m], across it
+    float skew = 0.0f;                 // [m], of a triangle's second edge along `side`
+    float radius = 0.0f;               // [m], of a sphere
     int profile = -1;                  // index into Scene::aimed_profiles; -1: none
     LightType type = LightType::point;
+    bool two_sided = false;       // rectangle, disk, triangle
     bool has_own_range = true;    // false: fill_missing_ranges() set it, see light_ranges.h
     bool follows_camera = false;  // position and direction are in the camera's space
     bool operator==(const SceneLight&) const = default;

@@ -45,8 +45,9 @@ static inline bool cone_reaches(ShadeLight light, float3 lo, float3 hi) {
     float sin_out = sqrt(max(1.0f - cos_out * cos_out, 0.0f));
     float slack = 1e-3f * (radius + sqrt(q2));  // more than float32 loses here
     // A selection, not a branch: PoCL 3.1 loses values across cull_lights' barriers otherwise.
-    float corner = dot(half_size, fabs(light.axis_cos.xyz));
-    float back = cos_out < 0.0f ? -1e30f : -(corner + slack);
+    // The corner farthest along the axis; 1e-5: more than the dot products lose.
+    float corner = fma(1e-5f, radius + sqrt(q2), dot(half_size, fabs(light.axis_cos.xyz)));
+    float back = cos_out < 0.0f ? -1e30f : -corner;
     return cos_out * across - sin_out * along <= radius + slack && along >= back;
 }
 #endif

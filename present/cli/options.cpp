@@ -36,14 +36,14 @@ void count_members(SharedOptions& options) {
                             takes_automatic_samples, camera, time, show_error, progress, quiet,
                             verbose] = options;
     [[maybe_unused]] auto& [load_time, allow_outside_paths, load_memory, clips, variant, strict,
-                            line_width] = load;
+                            line_width, light_size] = load;
     [[maybe_unused]] auto& [renderer, width, height, lights, tails, range_budget, seed, tree_share,
                             gbuffer, geometry, anisotropy, no_reuse, shading, shadows,
                             opaque_shadows, shadow_rays, ambient, backdrop, mirrored, bloom,
                             exposure, tone_curve, samples, auto_samples, want, grid, kernels,
                             force_features, max_memory_bytes, memory_shares, band_rows, device,
                             opened] = settings;
-    [[maybe_unused]] auto& [count, light_seed, radius, intensity, box] = lights;
+    [[maybe_unused]] auto& [count, light_seed, radius, intensity, size, box] = lights;
     [[maybe_unused]] auto& [on, error, most] = auto_samples;
     [[maybe_unused]] auto& [display, radiance, shown_light, counts, shadow_counts, view, aovs,
                             layer, probes, strip_makers, crop_pixels] = want;
@@ -115,6 +115,9 @@ void visit_lights(const SettingVisitor& f, SharedOptions& o) {
 
 void visit_more_lights(const SettingVisitor& f, SharedOptions& o) {
     RenderSettings& s = o.settings;
+    const auto take_size = [&o](const std::string& name, const std::string& text) {
+        o.load.light_size = o.settings.lights.size = parse_number(name, text, kZeroOrAboveRange);
+    };
     OptionBuilder(f, "Lights, added to the file's own")
         .rest()
         .flag("--reflections", o.reflections,
@@ -125,6 +128,12 @@ void visit_more_lights(const SettingVisitor& f, SharedOptions& o) {
         .count({"--environment-lights", "N", "", "Directional lights that stand for it", kPicture,
                 "1"},
                o.environment_lights, {1, 65536})
+        .value(SettingKind::number,
+               {"--light-size", "R", "",
+                "Radius of generated points, and of the file's that give none: spheres of the "
+                "same intensity, as soft as they are large",
+                kPicture, "m"},
+               take_size, [&s] { return text_of(s.lights.size); })
         .value({"--light-box", "X0,Y0,Z0,X1,Y1,Z1", "the scene's", "Where they are", kPicture, "m"},
                s.lights.box, parse_box)
         .choice({"--tails", "", "", "Where the file's lights without a range end", kPanelPicture},

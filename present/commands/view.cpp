@@ -22,7 +22,7 @@ ViewState kept_state(StateFile& file) {
 // Takes the kept rig, unless the command line has options of lights. Returns whether it did.
 bool take_kept_rig(SharedOptions& shared, const CLI::App& command, StateFile& file) {
     for (const char* name : {"--rig", "--lights", "--light-seed", "--light-radius",
-                             "--light-intensity", "--light-box", "--environment"}) {
+                             "--light-intensity", "--light-size", "--light-box", "--environment"}) {
         if (is_given(command, name)) return false;
     }
     shared.rig = kept_state(file).rig;

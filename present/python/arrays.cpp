@@ -102,7 +102,7 @@ RgbImage rgb_image_of(const Array<double>& picture, const std::string& what) {
 std::vector<SceneLight> lights_of(const std::string& kind,
                                   const std::map<std::string, Array<double>>& arrays) {
     const Array<double>&position = arrays.at("position"), &direction = arrays.at("direction"),
-          &intensity = arrays.at("intensity");
+          &side = arrays.at("side"), &intensity = arrays.at("intensity");
     const py::ssize_t count = position.shape(0);
     std::vector<SceneLight> out(static_cast<std::size_t>(count));
     const LightType type = type_of(kind);
@@ -115,12 +115,16 @@ std::vector<SceneLight> lights_of(const std::string& kind,
             if (!(kind_of(type).*number.has)) continue;
             light.*number.member = static_cast<float>(arrays.at(number.name).data()[i]);
         }
+        if (const std::string problem = size_problem(light); !problem.empty()) {
+            throw Error(fmt::format("lights: light {}: {}", i, problem));
+        }
         if (!kind_of(type).is_aimed) continue;
         light.direction = glm::normalize(row(direction, i));
         if (!std::isfinite(light.direction.x)) {
             throw Error(fmt::format("lights: direction of light {} is zero or not finite", i));
         }
-        light.side = perpendicular_side(light.direction);
+        light.side = perpendicular_side(light.direction, glm::normalize(row(side, i)));
+        light.two_sided = arrays.at("two_sided").data()[i] != 0.0;
         if (const std::string problem = cone_problem(light); !problem.empty()) {
             throw Error(fmt::format("lights: light {}: {}", i, problem));
         }

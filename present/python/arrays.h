@@ -39,8 +39,8 @@ pybind11::dict frame_arrays(const std::shared_ptr<Frame>& frame);
 /// A picture of shape (height, width, 3). Throws Error that names `what` for another shape.
 RgbImage rgb_image_of(const Array<double>& picture, const std::string& what);
 
-/// Lights of a kind from arrays of `count` rows: "position" and "direction" [count, 3] [m],
-/// "intensity" [count, 3] [cd] or [lx], and each of kLightNumbers by its name [count].
+/// Lights of a kind from arrays of `count` rows: "position", "direction" and "side" [count, 3] [m],
+/// "intensity" [count, 3] [cd] or [lx], "two_sided" and each of kLightNumbers by its name [count].
 std::vector<SceneLight> lights_of(const std::string& kind,
                                   const std::map<std::string, Array<double>>& arrays);
 

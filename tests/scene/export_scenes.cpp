@@ -2,7 +2,9 @@
 #include "tests/scene/export_scenes.h"
 
 #include <glm/gtc/matrix_transform.hpp>
+#include <tuple>
 
+#include "host/scene/lights/light_kinds.h"
 #include "tests/support/gltf_builder.h"
 
 namespace kilolux {
@@ -114,7 +116,18 @@ void add_lights(Scene& scene) {
     sun.intensity = {1000.0f, 990.0f, 900.0f};
     SceneLight dark = point;
     dark.intensity = glm::vec3(0.0f);
-    scene.lights = {point, endless, spot, down, sun, dark};
+    SceneLight panel = spot;
+    panel.type = LightType::rectangle;
+    panel.width = 1.3f;
+    panel.height = 0.7f;
+    SceneLight ellipse = panel;
+    ellipse.type = LightType::disk;
+    ellipse.range = 0.0f;
+    ellipse.two_sided = true;
+    SceneLight ball = point;
+    ball.type = LightType::sphere;
+    ball.radius = 0.11f;
+    scene.lights = {point, endless, spot, down, sun, dark, panel, ellipse, ball};
 }
 
 void add_cameras(Scene& scene) {
@@ -247,10 +260,15 @@ bool same_light(const SceneLight& a, const SceneLight& b) {
     if (a.type != b.type || a.position != b.position || a.intensity != b.intensity) return false;
     if (a.type != LightType::directional && a.range != b.range) return false;
     // Normalising a unit vector again may change its rounding in double.
-    const bool aimed = a.type != LightType::point || a.profile >= 0;
+    const bool aimed = kind_of(a).is_aimed || a.profile >= 0;
     if (aimed && glm::distance(a.direction, b.direction) > 1e-15) return false;
     if (aimed && glm::distance(a.side, b.side) > 1e-15) return false;
     if (a.profile != b.profile) return false;
+    if (kind_of(a).is_flat &&
+        std::tie(a.width, a.height, a.two_sided) != std::tie(b.width, b.height, b.two_sided)) {
+        return false;
+    }
+    if (kind_of(a).has_radius && a.radius != b.radius) return false;
     return a.type != LightType::spot ||
            (a.inner_cone == b.inner_cone && a.outer_cone == b.outer_cone);
 }

@@ -46,6 +46,7 @@ std::vector<BadLight> bad_lights(const Box& box) {
     const auto add = [&](const std::string& what, LightType type, const auto& spoil) {
         SceneLight light = usual_light(random, box);
         light.type = type;
+        light.width = light.height = light.radius = 0.25f;
         spoil(light);
         out.push_back({what, light});
     };
@@ -65,15 +66,19 @@ std::vector<BadLight> bad_lights(const Box& box) {
                 });
                 spoil(aimed, "direction", [&](auto& l) { l.direction[c] = double{bad}; });
             }
-            spoil(local, "range", [&](auto& l) { l.range = bad; });
-            spoil(kind.has_cone, "outer cone", [&](auto& l) { l.outer_cone = bad; });
-            spoil(kind.has_cone, "inner cone", [&](auto& l) { l.inner_cone = bad; });
+            for (const LightNumber& number : kLightNumbers) {
+                spoil(kind.*number.has, number.name, [&](auto& l) { l.*number.member = bad; });
+            }
         }
         for (int c = 0; c < 3; ++c)
             add("intensity -1", type, [&](auto& l) { l.intensity[c] = -1.0f; });
         if (aimed) add("direction 0", type, [](auto& l) { l.direction = {}; });
         if (local) add("position 1e30", type, [](auto& l) { l.position.x = 1e30; });
-        if (local) add("range -1", type, [](auto& l) { l.range = -1.0f; });
+        for (const LightNumber& number : kLightNumbers) {
+            if (!(kind.*number.has) || !number.is_positive) continue;
+            add(fmt::format("{} -1", number.name), type,
+                [&](auto& l) { l.*number.member = -1.0f; });
+        }
     }
     return out;
 }

@@ -8,6 +8,7 @@
 
 #include "host/base/scene_features.h"
 #include "host/scene/scene.h"
+#include "kernels/shared/area/area_shape.h"
 #include "kernels/shared/light.h"
 #include "kernels/shared/light_profile.h"
 
@@ -15,9 +16,10 @@ namespace kilolux {
 
 /// Lights relative to a camera, in the rows that kernels take.
 struct LightRows {
-    std::vector<Light> local;  // point and spot lights
+    std::vector<Light> local;  // all but directional lights
     std::vector<DirectionalLight> directional;
     std::vector<AimedProfile> profiles;     // one per local light, or none at all; world axes
+    std::vector<LightShape> shapes;         // likewise
     std::span<const float> profile_tables;  // that they are of; the light source's
     std::uint64_t rejected = 0;  // not finite, no range, or no light: counted, never silently lost
     SceneFeatures features;      // the kinds of lights alone
@@ -26,12 +28,15 @@ struct LightRows {
 /// Whether a light can be used from this camera position: finite, with a range, and giving light.
 bool is_usable(const SceneLight& light, const glm::dvec3& camera_position);
 
-/// A point or spot light that is_usable(), in the world: MoveLights makes its row.
+/// A light with a position that is_usable(), in the world: MoveLights makes its row.
 WorldLight world_light(const SceneLight& light);
 
 /// The photometric web of a light of the scene, world axes. `starts`: of the tables of its webs.
 AimedProfile aimed_profile(const SceneLight& light, const Scene& scene,
                            std::span<const float> starts);
+
+/// The shape of a light that is_usable(), world axes; zeros for one without a size.
+LightShape shape_row(const SceneLight& light);
 
 /// A directional light's row, world axes.
 DirectionalLight directional_row(const SceneLight& light);

@@ -84,6 +84,13 @@ void check_settings(const RenderSettings& settings) {
     check_view(settings);
 }
 
+void check_area_lights(int shading) {
+    if (shading != SHADING_BLINN_PHONG) return;
+    throw UsageError(
+        "shading blinn-phong: it has no highlights of lights with a size; take pbr or lambert, or "
+        "--light-size 0");
+}
+
 bool tree_can_light(const Scene& scene, const RenderSettings& settings) {
     return settings.renderer == RendererKind::deferred && settings.shadows == Shadows::off &&
            !has_blended_surfaces(scene);

@@ -7,6 +7,7 @@
 
 #include "host/scene/export/materials.h"
 #include "host/scene/lights/light_kinds.h"
+#include "host/scene/lights/light_shape.h"
 #include "host/scene/lights/light_side.h"
 
 namespace kilolux {
@@ -109,17 +110,23 @@ void add_color(Json& out, const SceneLight& light) {
     }
 }
 
-Json light_json(const SceneLight& light) {
+Json light_json(const SceneLight& light, std::size_t extension) {
     const LightKind& kind = kind_of(light);
-    Json out{{"type", kind.name}, {"intensity", brightest(light)}};
+    const double unit = kind.is_flat ? seen_area(light) : 1.0;  // candela become nits
+    Json out{{"type", kind.name_in_file}, {"intensity", brightest(light) / unit}};
     add_color(out, light);
     const SceneLight allowed = with_angles(light);
     for (const LightNumber& number : kLightNumbers) {
         const float value = allowed.*number.member;
-        if (kind.*number.has && value > 0.0f && std::isfinite(value)) {
-            at_path(out, number.path) = value;
+        const std::string_view path = number.paths[extension];
+        if (kind.*number.has && !path.empty() && value > 0.0f && std::isfinite(value)) {
+            at_path(out, path) = value;
         }
     }
+    if (kind.is_flat && light.width != light.height) {
+        at_path(out, kind.aspect_in_file) = double{light.width} / double{light.height};
+    }
+    if (kind.is_flat && light.two_sided) at_path(out, kTwoSided) = true;
     return out;
 }
 
@@ -132,10 +139,11 @@ glm::dmat3 axes_of(const SceneLight& light) {
 
 void add_light(ExportedNodes& out, const SceneLight& light) {
     const std::string extension(kind_of(light).extension);
+    const auto* const place = std::ranges::find(kLightExtensions, kind_of(light).extension);
     Json& lights = out.lights[extension]["lights"];
     Json node = Json::object();
     node["extensions"][extension]["light"] = lights.size();
-    lights.push_back(light_json(light));
+    lights.push_back(light_json(light, static_cast<std::size_t>(place - kLightExtensions.begin())));
     if (!kind_of(light).is_aimed) {
         node["translation"] = {light.position.x, light.position.y, light.position.z};
     } else {
@@ -201,6 +209,7 @@ ExportedNodes export_nodes(const Scene& scene, const std::vector<int>& mesh_of) 
         out.roots.push_back(add_placed(out.nodes, instance.world_from_object, {{"mesh", mesh}}));
     }
     for (const SceneLight& light : scene.lights) {
+        if (kind_of(light).extension.empty()) continue;  // the loader makes them of surfaces
         if (!is_usable(light)) {
             ++out.unusable_lights;
             continue;

@@ -173,7 +173,7 @@ GltfDocument load_gltf_document(const std::filesystem::path& file, const LoadOpt
     read_buffers(document, root, used.buffers, text, json_bytes);
     parse_model(document, std::move(root), parsed_bytes);
     check_extensions(document);
-    report_cones(document);
+    report_lights(document);
     apply_variant(document);
     document.clips = choose_clips(document);
     document.animated = list_animated_properties(document);

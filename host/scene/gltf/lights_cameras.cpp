@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/gltf/lights_cameras.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
 #include "host/scene/gltf/extensions.h"
 #include "host/scene/lights/light_kinds.h"
+#include "host/scene/lights/light_shape.h"
 #include "host/scene/lights/light_side.h"
 
 namespace kilolux {
@@ -13,23 +15,91 @@ namespace {
 
 using nlohmann::json;
 
-SceneLight convert_light(const json& source, std::string_view extension,
-                         const glm::dmat4& world_from_node) {
+// A number of a light, `otherwise` without it; extras may hold anything.
+double number_at(const json& source, std::string_view path, double otherwise) {
+    const json* value = path.empty() ? nullptr : find_member(source, path);
+    return value != nullptr && value->is_number() ? value->get<double>() : otherwise;
+}
+
+// The radius that extras give a light [m]; 0: none.
+double radius_of(const json& source) { return number_at(source, "extras.radius", 0.0); }
+
+const LightKind& kind_in_file(const json& source, std::string_view extension, double radius) {
+    const std::string type = source.at("type");
+    const LightKind* sized = radius > 0.0 ? find_light_kind(extension, type, true) : nullptr;
+    return sized != nullptr ? *sized : *find_light_kind(extension, type);
+}
+
+// EXT_lights_area scales a light by the largest of its node's three scales.
+double scale_of(const glm::dmat4& world_from_node) {
+    const auto length = [&](int axis) { return glm::length(glm::dvec3(world_from_node[axis])); };
+    return std::max({length(0), length(1), length(2)});
+}
+
+void read_flat_size(SceneLight& out, const json& source, const glm::dmat4& world_from_node) {
+    const double height = number_at(source, "size", 1.0) * scale_of(world_from_node);
+    out.height = to_float(height);
+    out.width = to_float(height * number_at(source, kind_of(out).aspect_in_file, 1.0));
+    const json* two_sided = find_member(source, kTwoSided);
+    out.two_sided = two_sided != nullptr && *two_sided == json(true);
+}
+
+SceneLight convert_light(const GltfDocument& document, std::size_t e, std::size_t light,
+                         const glm::dmat4& world_from_node = glm::dmat4(1.0)) {
+    const json& source = document.lights[e][light];
+    const double own_radius = radius_of(source);
+    const double radius = own_radius > 0.0 ? own_radius : document.options.light_size;
+    const LightKind& kind = kind_in_file(source, kLightExtensions[e], radius);
     SceneLight out;
-    const LightKind& kind = *find_light_kind(extension, source.at("type").get<std::string>());
     out.type = kind.type;
     if (kind.is_aimed) aim_light(out, world_from_node);
     out.position = glm::dvec3(world_from_node[3]);
-    const auto color = source.value("color", std::array<double, 3>{1.0, 1.0, 1.0});
-    for (glm::length_t c = 0; c < 3; ++c) {
-        out.intensity[c] =
-            to_float(color[static_cast<std::size_t>(c)] * source.value("intensity", 1.0));
-    }
     for (const LightNumber& number : kLightNumbers) {
-        const json* value = find_member(source, number.path);
-        if (value != nullptr && kind.*number.has) out.*number.member = to_float(*value);
+        float& member = out.*number.member;
+        if (kind.*number.has) member = to_float(number_at(source, number.paths[e], member));
+    }
+    if (kind.has_radius) out.radius = to_float(radius);
+    if (kind.is_flat) read_flat_size(out, source, world_from_node);
+    const double unit = kind.is_flat ? seen_area(out) : 1.0;  // nits become candela
+    const auto color = source.value("color", std::array<double, 3>{1.0, 1.0, 1.0});
+    const double intensity = source.value("intensity", default_intensity(kLightExtensions[e]));
+    for (glm::length_t c = 0; c < 3; ++c) {
+        out.intensity[c] = to_float(color[static_cast<std::size_t>(c)] * intensity * unit);
     }
     return out;
+}
+
+// Says what is wrong with the radius in a light's extras; empty where nothing is.
+std::string radius_problem(const json& source, std::string_view extension) {
+    const json* radius = find_member(source, "extras.radius");
+    if (radius == nullptr) return "";
+    if (!radius->is_number() || *radius < 0.0) {
+        return fmt::format("extras.radius is {}, must be a number, at least 0", radius->dump());
+    }
+    const LightKind& kind = kind_in_file(source, extension, *radius);
+    if (*radius == 0.0 || kind.has_radius) return "";
+    return fmt::format("extras.radius: a light of type \"{}\" has none here, it is left out",
+                       kind.name_in_file);
+}
+
+// Reports the first light of which `problem_of` says something, and how many more there are.
+template <typename ProblemOf>
+void report_problems(const GltfDocument& document, const ProblemOf& problem_of) {
+    std::string first;
+    std::size_t more = 0;
+    for (std::size_t e = 0; e < kLightExtensions.size(); ++e) {
+        for (std::size_t i = 0; i < document.lights[e].size(); ++i) {
+            const std::string problem = problem_of(e, i);
+            if (problem.empty()) continue;
+            if (first.empty()) {
+                first = element_name("lights", i) + ": " + problem;
+            } else {
+                ++more;
+            }
+        }
+    }
+    if (first.empty()) return;
+    document.leave_out(more == 0 ? first : fmt::format("{}; likewise {} more", first, more));
 }
 
 constexpr double kLeastAxesSine = 1e-6;  // of the angle between a camera's axes
@@ -108,8 +178,7 @@ std::vector<SceneLight> convert_lights(const GltfDocument& document, const Place
             const auto* use = find_extension(document.model.nodes[n].extensions, extension);
             if (use == nullptr || !use->Has("light")) continue;
             const auto light = static_cast<std::size_t>(member_or(*use, "light", 0));
-            lights.push_back(
-                convert_light(document.lights[e][light], extension, nodes.world_from_node[n]));
+            lights.push_back(convert_light(document, e, light, nodes.world_from_node[n]));
             // A light that is hidden for a while stays, dark, so that kernels for its kind do.
             if (nodes.visibility[n] != NodeVisibility::visible) lights.back().intensity = {};
         }
@@ -117,23 +186,17 @@ std::vector<SceneLight> convert_lights(const GltfDocument& document, const Place
     return lights;
 }
 
-void report_cones(const GltfDocument& document) {
-    std::string first;
-    std::size_t more = 0;
-    for (std::size_t e = 0; e < kLightExtensions.size(); ++e) {
-        for (std::size_t i = 0; i < document.lights[e].size(); ++i) {
-            const std::string problem = cone_problem(
-                convert_light(document.lights[e][i], kLightExtensions[e], glm::dmat4(1)));
-            if (problem.empty()) continue;
-            if (first.empty()) {
-                first = element_name("lights", i) + ": " + problem;
-            } else {
-                ++more;
-            }
-        }
-    }
-    if (first.empty()) return;
-    document.leave_out(more == 0 ? first : fmt::format("{}; likewise {} more", first, more));
+void report_lights(const GltfDocument& document) {
+    const auto of_light = [&](std::string (*problem)(const SceneLight&)) {
+        report_problems(document, [&](std::size_t e, std::size_t i) {
+            return problem(convert_light(document, e, i));
+        });
+    };
+    of_light(cone_problem);
+    of_light(size_problem);
+    report_problems(document, [&](std::size_t e, std::size_t i) {
+        return radius_problem(document.lights[e][i], kLightExtensions[e]);
+    });
 }
 
 std::vector<SceneCamera> convert_cameras(const GltfDocument& document, const PlacedNodes& nodes) {

@@ -29,6 +29,7 @@ struct LoadOptions {
     std::string variant{};  // of KHR_materials_variants, by name or index; empty: the default
     bool strict = false;    // throw where the picture would lack something of the file
     LineWidth line_width{};
+    double light_size = 0.0;  // radius of points without one [m]: they become spheres
     bool operator==(const LoadOptions&) const = default;
 };
 

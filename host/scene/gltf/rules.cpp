@@ -211,12 +211,13 @@ Rules texture_rules() {
     };
 }
 
-Rules light_rules(std::string_view extension) {
+Rules light_rules(std::size_t e) {
+    const std::string_view extension = kLightExtensions[e];
     const std::string place = "extensions." + std::string(extension);
     const std::string light = place + ".lights[].";
     std::vector<std::string> names;
     for (const LightKind& kind : kLightKinds) {
-        if (kind.extension == extension) names.emplace_back(kind.name);
+        if (kind.extension == extension && !kind.has_radius) names.emplace_back(kind.name_in_file);
     }
     Rules rules = {
         index("nodes[]." + place + ".light", "/extensions/" + std::string(extension) + "/lights"),
@@ -224,9 +225,12 @@ Rules light_rules(std::string_view extension) {
         numbers(light + "color", 3),
         number(light + "intensity"),
     };
-    for (const LightNumber& of_light : kLightNumbers) {
-        if (!has_number(extension, of_light)) continue;
-        rules.push_back(number(light + std::string(of_light.path)));
+    const auto add_number = [&](std::string_view path) {
+        if (!path.empty() && !is_extra(path)) rules.push_back(number(light + std::string(path)));
+    };
+    for (const LightNumber& of_light : kLightNumbers) add_number(of_light.paths[e]);
+    for (const LightKind& kind : kLightKinds) {
+        if (kind.extension == extension) add_number(kind.aspect_in_file);
     }
     return rules;
 }
@@ -280,7 +284,7 @@ std::vector<GltfRule> gltf_rules() {
          {buffer_rules, accessor_rules, node_rules, mesh_rules, material_rules, variant_rules,
           texture_rules, camera_and_profile_rules, animation_rules})
         add(part());
-    for (const std::string_view extension : kLightExtensions) add(light_rules(extension));
+    for (std::size_t e = 0; e < kLightExtensions.size(); ++e) add(light_rules(e));
     return rules;
 }
 

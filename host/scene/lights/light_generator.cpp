@@ -68,6 +68,8 @@ void check(const LightOptions& options, const Box& box, double time) {
             options.radius);
     require(std::isfinite(options.intensity) && options.intensity >= 0.0,
             "the intensity must be >= 0", options.intensity);
+    require(std::isfinite(options.size) && options.size >= 0.0, "the size must be >= 0",
+            options.size);
 }
 
 // Newton's method from a power of two; std::cbrt's last bit depends on the library.
@@ -230,6 +232,8 @@ SceneLight LightGenerator::operator[](std::uint64_t light) const {
     const float4 intensity = drift_intensity(drift);
     out.intensity = {intensity.x, intensity.y, intensity.z};
     out.range = static_cast<float>(options_.radius);
+    out.radius = static_cast<float>(options_.size);
+    if (out.radius > 0.0f) out.type = LightType::sphere;
     return out;
 }
 

@@ -12,14 +12,15 @@
 namespace kilolux {
 
 /// How generated point lights are made: `--lights`, `--light-seed`, `--light-radius`,
-/// `--light-intensity`, `--light-box`.
+/// `--light-intensity`, `--light-size`, `--light-box`.
 struct LightOptions {
     std::uint64_t count = 5000;
     std::uint64_t seed = 1;
     double radius = 0.0;  // range [m]; 0: automatic, from the box and the count
     double intensity =
-        0.0;  // brightest colour channel [cd]; 0: automatic, well exposed at any count
-    Box box;  // empty: see light_region()
+        0.0;            // brightest colour channel [cd]; 0: automatic, well exposed at any count
+    double size = 0.0;  // radius of spheres [m]; 0: points
+    Box box;            // empty: see light_region()
     bool operator==(const LightOptions&) const = default;
 };
 

@@ -9,6 +9,7 @@
 
 #include "host/base/error.h"
 #include "host/scene/lights/light_kinds.h"
+#include "host/scene/lights/light_shape.h"
 
 namespace kilolux {
 
@@ -37,9 +38,13 @@ void fill_missing_ranges(std::vector<SceneLight>& lights, Tails tails, double er
         if (!lacks_range(light)) continue;
         const glm::vec3& i = light.intensity;
         light.has_own_range = unlimited;
-        light.range =
-            unlimited ? kUnlimitedRange
-                      : static_cast<float>(range_of_light(std::max({i.x, i.y, i.z}), error_budget));
+        if (unlimited) {
+            light.range = kUnlimitedRange;
+            continue;
+        }
+        // About the position; no point of a light with a size is farther from it than that.
+        const double range = range_of_light(std::max({i.x, i.y, i.z}), error_budget);
+        light.range = static_cast<float>(range + bounding_radius(light));
     }
 }
 

@@ -18,12 +18,19 @@ class Lights:
     """Lights of one kind.
 
     position   [n, 3], metres, world
-    intensity  [n, 3], [n], one colour or one value: candela, for directional lights lux; linear
-               Rec. 709. Of three lights say [3, 1] for values and [1, 3] for one colour.
+    intensity  [n, 3], [n], one colour or one value: candela, for directional lights lux, for flat
+               ones candela straight ahead (luminance times area); linear Rec. 709. Of three lights
+               say [3, 1] for values and [1, 3] for one colour.
     range      [n] or one value, metres: beyond it a light is exactly 0; 0: from the intensity
-    direction  [n, 3] or one row: the way the light travels (spot, directional); any length but 0
+    direction  [n, 3] or one row: the way the light travels; not of points and spheres; any length but 0
     inner_cone, outer_cone  [n] or one value: half angles of spot lights, radians, at most pi / 2
-    kind       "point", "spot" or "directional"
+    width, height  [n] or one value, metres: of "rect" and "disk" (an ellipse where they differ), and
+               of "triangle" the first edge and the height over it
+    side       [n, 3] or one row: the way of the width
+    skew       [n] or one value, metres: the second edge of a triangle along the first
+    radius     [n] or one value, metres: of "sphere"
+    two_sided  whether flat lights shine to both sides
+    kind       "point", "spot", "directional", "rect", "disk", "sphere" or "triangle" (about its centroid)
 
     Arrays are read when the lights are given to Renderer(), change() or light(). Lights that cannot
     be used (not finite, a negative intensity or range) are left out with a warning; a frame's stats
@@ -36,6 +43,12 @@ class Lights:
     direction: ArrayLike = (0.0, -1.0, 0.0)
     inner_cone: ArrayLike = 0.0
     outer_cone: ArrayLike = 0.7853981633974483
+    width: ArrayLike = 0.0
+    height: ArrayLike = 0.0
+    skew: ArrayLike = 0.0
+    radius: ArrayLike = 0.0
+    side: ArrayLike = (1.0, 0.0, 0.0)
+    two_sided: ArrayLike = False
     kind: str = "point"
 
     def __post_init__(self) -> None:
@@ -54,9 +67,10 @@ class Lights:
         if intensity.ndim == 1 and intensity.shape != (3,):
             intensity = intensity[:, None]
         columns = {name: arrays.floats(getattr(self, name), f"lights: {name}")
-                   for name in _native.light_numbers()}
-        direction = arrays.floats(self.direction, "lights: direction")
-        return {"position": position, "direction": _fill("direction", direction, (count, 3)),
+                   for name in (*_native.light_numbers(), "two_sided")}
+        rows = {name: arrays.floats(getattr(self, name), f"lights: {name}") for name in ("direction", "side")}
+        return {"position": position,
+                **{name: _fill(name, row, (count, 3)) for name, row in rows.items()},
                 "intensity": _fill("intensity", intensity, (count, 3)),
                 **{name: _fill(name, column, (count,)) for name, column in columns.items()}}
 

@@ -160,8 +160,10 @@ CullCase make_cull_case(const Gpu& gpu, const CullScenario& scenario) {
     for (uint i = 0; i < scenario.light_count; ++i) {
         const Sphere sphere = adversarial_sphere(c, i % 6, random);
         const Light point = point_light(world_from_view(view, sphere.center), sphere.range);
-        const double outer =
-            i % 12 < 6 ? random.uniform(0.01, 0.2) : random.uniform(0.2, 1.5707963);
+        // Every twelfth shines into a half-space, as flat lights do.
+        const double outer = i % 12 == 11 ? 1.5707963267948966
+                             : i % 12 < 6 ? random.uniform(0.01, 0.2)
+                                          : random.uniform(0.2, 1.5707963);
         c.lights.push_back(scenario.spots && i % 4 != 0
                                ? spot_light(point, random.direction(), 0.5 * outer, outer)
                                : point);

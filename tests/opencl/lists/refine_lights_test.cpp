@@ -143,6 +143,44 @@ TEST(RefineLights, SpotsThatShineAwayAreLeftOut) {
     }
 }
 
+// Flat lights shine into a half-space: no cluster whose box is behind it lists them.
+TEST(RefineLights, HalfSpacesAreTestedByTheCornersOfBoxes) {
+    const Gpu gpu = test_gpu();
+    const View view = make_view(square_pixels(97, 65));
+    const ClusterGrid grid = make_cluster_grid(kRefinedRequest, view.width, view.height);
+    KernelFeatures features;
+    features.spot_lights = true;
+    const GBuffer gbuffer =
+        upload_gbuffer(gpu, make_synthetic(view, features, noise_depth(0.5, 40.0, 0.0, 3)));
+    Random random(5);
+    std::vector<Light> lights;
+    for (int i = 0; i < 200; ++i) {
+        const Light point = point_light(world_from_view(view, random.point(30.0)), 1000.0);
+        lights.push_back(spot_light(point, random.direction(), 1.0, 1.5707963267948966));
+    }
+    const ListedLights made = list_everywhere(gpu, default_tuning(gpu.info), features,
+                                               {gbuffer, upload_lights(gpu, lights), grid});
+    const HostLists lists = download_lists(gpu, features, made);
+    const auto rows = download<ShadeLight>(gpu, made.lights.lights, lights.size());
+    std::size_t behind = 0;
+    for (const ActiveCluster& c : lists.clusters) {
+        const auto list = lists.refined_of(c);
+        for (uint i = 0; i < rows.size(); ++i) {
+            const float4 &p = rows[i].position_inv_range2, &axis = rows[i].axis_cos;
+            const auto most = [](double a, double lo, double hi) { return std::max(a * lo, a * hi); };
+            const double corner = most(axis.x, double{c.min_x} - p.x, double{c.max_x} - p.x) +
+                                  most(axis.y, double{c.min_y} - p.y, double{c.max_y} - p.y) +
+                                  most(axis.z, double{c.min_z} - p.z, double{c.max_z} - p.z);
+            const bool listed = std::ranges::find(list, i) != list.end();
+            const double margin = 1e-3 * (1.0 + std::abs(corner));
+            if (std::abs(corner) < margin) continue;
+            EXPECT_EQ(listed, corner > 0.0) << "light " << i << ", corner " << corner;
+            behind += corner < 0.0 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(behind, 1000u);
+}
+
 // Half angles above 90 degrees: light goes backwards, too.
 TEST(RefineLights, WideSpotsReachWhatLiesBehindThem) {
     const Gpu gpu = test_gpu();

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// The irradiance of spheres and ellipses of luminance 1, in the frame and unit of polygon_light.h.
+// Exact for a sphere, and for an ellipse above the horizon. The horizon cuts an ellipse as it does
+// the circular cone about the same axis that touches the horizon with it.
+#ifndef KILOLUX_SHARED_AREA_ROUND_LIGHT_H
+#define KILOLUX_SHARED_AREA_ROUND_LIGHT_H
+#include "kernels/shared/area/polygon_light.h"
+#include "kernels/shared/types.h"
+
+#if defined(__cplusplus)
+namespace kilolux {
+#endif
+
+// (x - atan(x)) / x^3 by the square of x in [0, 1], within 3e-7.
+SHARED_FN FV atan_remainder(FV square) {
+    FV s = fma(square, fv(-0.00392374350f), fv(0.0202291924f));
+    s = fma(s, square, fv(-0.0491975695f));
+    s = fma(s, square, fv(0.0802940726f));
+    s = fma(s, square, fv(-0.108728476f));
+    s = fma(s, square, fv(0.142582670f));
+    s = fma(s, square, fv(-0.199987605f));
+    return fma(s, square, fv(0.333333254f));
+}
+
+// As cone_cosine where the horizon cuts the cone.
+SHARED_FN FV cut_cone_cosine(FV axis_z, FV sine2, FV cosine2) {
+    FV axis_sine = lane_sqrt(max(fma(-axis_z, axis_z, fv(1.0f)), fv(1e-30f)));
+    FV cotangent = lane_sqrt(lane_divide(cosine2, sine2));
+    FV y = max(min(lane_divide(-cotangent * axis_z, axis_sine), fv(1.0f)), fv(-1.0f));
+    FV w = lane_sqrt((1.0f - y) * (1.0f + y));
+    FV angle = w * angle_over_sine(max(y, -y));
+    angle = lane_select(y < 0.0f, fv(3.14159265f) - angle, angle);  // acos(y)
+    FV across = axis_sine * w;
+    // atan(across / cotangent), as the quotient or its inverse, whichever is at most 1, and a rest.
+    FV ratio = lane_divide(min(across, cotangent), max(max(across, cotangent), fv(1e-30f)));
+    FV rest = ratio * ratio * ratio * atan_remainder(ratio * ratio);
+    MASK narrow = across <= cotangent;
+    FV straight = lane_select(narrow, ratio, -cotangent * across);
+    FV bent = lane_select(narrow, -rest, 1.57079633f - (ratio - rest));
+    return fma(axis_z, angle, straight + lane_divide(bent, sine2)) * 0.318309886f;
+}
+
+// The mean over a circular cone, weighted by the cosine to its axis, of ... the irradiance as a
+// share of that with the cone's axis along the normal. sine2, cosine2: squares of the sine and
+// cosine of the cone's half angle, not 0.
+SHARED_FN FV cone_cosine(FV axis_z, FV sine2, FV cosine2) {
+    FV share = max(axis_z, fv(0.0f));
+    MASK cut = axis_z * axis_z < sine2;
+    if (lane_any(cut)) {
+        FV part = max(cut_cone_cosine(axis_z, sine2, cosine2), fv(0.0f));
+        share = lane_select(cut, part, share);
+    }
+    return share;
+}
+
+// A sphere; inside it 0.
+SHARED_FN FV sphere_cosine(FV3 center, FV radius) {
+    FV square = dot3(center, center), radius2 = radius * radius;
+    FV free = square - radius2;  // the square of the tangents' length
+    MASK outside = free > SMALLEST_SQUARE;
+    FV inverse = inverse_length(square);
+    FV inverse2 = inverse * inverse;
+    FV sine2 = max(radius2 * inverse2, fv(1e-37f));
+    FV share = cone_cosine(center.z * inverse, sine2, max(free, fv(0.0f)) * inverse2);
+    FV cosine = fv(3.14159265f) * sine2 * share;
+    return lane_select(outside, cosine, fv(0.0f));
+}
+
+// Centre and half axes of an ellipse.
+SHARED_PLAIN_STRUCT(FlatLight) { FV3 center, half_x, half_y; };
+
+// The disk that fills the same solid angle as a sphere outside of which the origin is. It shines to
+// the origin.
+SHARED_FN FlatLight sphere_disk(FV3 center, FV radius) {
+    FV square = dot3(center, center);
+    FV inverse = inverse_length(square);
+    FV share = max(fma(-radius * inverse, radius * inverse, fv(1.0f)), fv(0.0f));
+    FV3 axis = scale3(center, inverse);
+    // Duff et al. 2017, "Building an orthonormal basis, revisited".
+    FV side = lane_select(axis.z < 0.0f, fv(-1.0f), fv(1.0f));
+    FV a = lane_divide(fv(-1.0f), side + axis.z);
+    FV b = axis.x * axis.y * a;
+    FV size = radius * lane_sqrt(share);
+    FlatLight disk;
+    disk.center = scale3(center, share);
+    disk.half_y = fv3(size * fma(side * axis.x, axis.x * a, fv(1.0f)), size * side * b,
+                      -size * side * axis.x);
+    disk.half_x = fv3(size * b, size * fma(axis.y, axis.y * a, side), -size * axis.y);
+    return disk;
+}
+
+// The root above 0 of k^3 + a k^2 + b k - c, whose other roots are below 0, from above: Laguerre.
+SHARED_FN FV largest_root(FV k, FV a, FV b, FV c) {
+    for (int i = 0; i < 3; ++i) {
+        FV value = fma(fma(k + a, k, b), k, -c);
+        FV slope = fma(fma(fv(3.0f), k, 2.0f * a), k, b);
+        FV bend = fma(fv(6.0f), k, 2.0f * a);
+        FV root = lane_sqrt(max(fma(4.0f * slope, slope, -6.0f * value * bend), fv(0.0f)));
+        FV step = lane_divide(3.0f * value, max(slope + root, fv(1e-37f)));
+        k = max(k - step, fv(0.0f));
+    }
+    return k;
+}
+
+// As disk_cosine, for lights of any size and at the horizon. The cone over the ellipse has the
+// axes of the matrix W = half_x half_x^T + half_y half_y^T - center center^T. -k: its eigenvalue
+// below 0, of the axis.
+SHARED_FN FV ellipse_cosine(FV3 center, FV3 half_x, FV3 half_y) {
+    FV scale = inverse_length(dot3(center, center) + dot3(half_x, half_x) + dot3(half_y, half_y));
+    FV3 c = scale3(center, scale), x = scale3(half_x, scale), y = scale3(half_y, scale);
+    FV3 area = cross3(x, y), over_x = cross3(c, x), over_y = cross3(c, y);
+    FV volume = dot3(c, area);
+    FV cc = dot3(c, c), size = dot3(x, x) + dot3(y, y);
+    FV minors = dot3(area, area) - dot3(over_x, over_x) - dot3(over_y, over_y);
+    FV k = max(largest_root(cc, size - cc, minors, volume * volume), fv(1e-37f));
+    // (k + p) (k + q) for the other eigenvalues p and q.
+    FV slope = max(fma(fma(fv(3.0f), k, 2.0f * (size - cc)), k, minors), fv(1e-37f));
+    FV cx = dot3(c, x), cy = dot3(c, y);
+    // The adjugate of W + k, which is slope * axis axis^T, times the centre: z, and along it.
+    FV along_z = fma(k, fma(k + size, c.z, -fma(cx, x.z, cy * y.z)), volume * area.z);
+    FV along = fma(k, fma(k + size, cc, -fma(cx, cx, cy * cy)), volume * volume);
+    FV axis_z = along_z * inverse_length(slope * along);
+    axis_z = max(min(axis_z, fv(1.0f)), fv(-1.0f));
+    FV faced = fv(3.14159265f) * -volume * inverse_length(k * slope);
+    // The square of the horizon's largest distance below the axis over the cone.
+    FV spread = fma(k * axis_z, axis_z, fma(x.z, x.z, fma(y.z, y.z, -c.z * c.z)));
+    FV rest = k * fma(-axis_z, axis_z, fv(1.0f));
+    FV both = lane_divide(fv(1.0f), max(spread + rest, fv(1e-37f)));
+    return faced * cone_cosine(axis_z, max(spread * both, fv(1e-37f)), max(rest * both, fv(0.0f)));
+}
+
+// An ellipse that shines to the side of half_x x half_y.
+SHARED_FN FV disk_cosine(FV3 center, FV3 half_x, FV3 half_y) {
+    FV square = dot3(half_x, half_x) + dot3(half_y, half_y);
+    FV whole = four_samples(center, scale3(half_x, fv(0.5f)), scale3(half_y, fv(0.5f)),
+                            fv(-0.785398163f) * dot3(center, cross3(half_x, half_y)));
+    FV low = fma(half_x.z, half_x.z, half_y.z * half_y.z);
+    MASK cut = low > center.z * center.z;
+    MASK large = square > dot3(center, center) * SMALL_LIGHT;
+    FV exact = lane_select(cut, fv(1.0f), lane_select(large, fv(1.0f), fv(0.0f)));
+    if (lane_any(exact > 0.0f))
+        whole = lane_select(exact > 0.0f, ellipse_cosine(center, half_x, half_y), whole);
+    return max(min(whole, fv(3.14159265f)), fv(0.0f));
+}
+
+#if defined(__cplusplus)
+}  // namespace kilolux
+#endif
+#endif

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rows beside a light's own, by the light's index, that only some scenes have: photometric webs
+// (HAS_LIGHT_PROFILES) and shapes (HAS_AREA_LIGHTS).
+// OpenCL C and C++ read them through pointers; a GLSL shader that includes this defines
+// shape_of_light() and what light_profile.h asks for.
+#ifndef KILOLUX_SHARED_LIGHT_EXTRAS_H
+#define KILOLUX_SHARED_LIGHT_EXTRAS_H
+#include "kernels/shared/area/area_shape.h"
+#include "kernels/shared/light_profile.h"
+
+#ifndef HAS_LIGHT_PROFILES
+#define HAS_LIGHT_PROFILES 0
+#endif
+#ifndef HAS_AREA_LIGHTS
+#define HAS_AREA_LIGHTS 0
+#endif
+#define HAS_LIGHT_EXTRAS (HAS_LIGHT_PROFILES != 0 || HAS_AREA_LIGHTS != 0)
+
+#if defined(__cplusplus)
+namespace kilolux {
+#endif
+
+#if HAS_PROFILE_POINTER
+SHARED_PLAIN_STRUCT(LightExtras) {
+    LightProfiles profiles;
+    PROFILE_POINTER(LightShape) shapes;  // [light_count]
+};
+
+SHARED_FN LightShape shape_of_light(LightExtras from, uint light) { return from.shapes[light]; }
+#else
+struct LightExtras {
+    LightProfiles profiles;
+};
+LightShape shape_of_light(LightExtras from, uint light);
+#endif
+
+#if defined(__cplusplus)
+}  // namespace kilolux
+#endif
+#endif
