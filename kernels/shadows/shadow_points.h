@@ -3,6 +3,7 @@
 #ifndef KILOLUX_DEVICE_SHADOW_POINTS_H
 #define KILOLUX_DEVICE_SHADOW_POINTS_H
 #include "kernels/device/lit_item.h"
+#include "kernels/device/longest_edge.h"
 #include "kernels/shadows/shadow_space.h"
 
 // Whether walks count nodes, triangles and rays in ShadowPoints: for measurements.
