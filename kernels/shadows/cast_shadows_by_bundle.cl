@@ -48,19 +48,19 @@ kernel void cast_shadows(
     Pixels pixels = pixels_of_item(view, at.x, at.y, order);
     load_origins(&points, 0u, origins, view.stride * view.height, pixels);
     load_area_pixels(&points, 0u, GBUFFER_OF_ARGS, pixels);
-    ShadowRays rays;
-    rays.scene = SHADOW_SCENE_OF_ARGS;
-    rays.points = &points;
+    ShadowRays walks;
+    walks.scene = SHADOW_SCENE_OF_ARGS;
+    walks.points = &points;
     FOR_EACH_CLUSTER(i, active, at.tile) {
         uint first = clusters[i].first_pixel;
         UV places = lane_numbers + place;
-        rays.wanted = lane_mask(places >= (UV)(first)) &
+        walks.wanted = lane_mask(places >= (UV)(first)) &
                       lane_mask(places < (UV)(first + clusters[i].pixel_count));
-        if (!lane_any(rays.wanted)) continue;
+        if (!lane_any(walks.wanted)) continue;
         ShadowBits bits = bits_of_cluster(words + word_offsets[at.tile], clusters + i, place);
         for (uint j = 0; j < count_of_cluster(from, clusters + i); ++j) {
             ShadowLight light = light_of_cluster(from, shadow, clusters + i, j, key);
-            cast_slots(rays, light, slots_of(from, j), slots_before(from, j), bits, words);
+            cast_slots(walks, light, slots_of(from, j), slots_before(from, j), bits, words);
         }
     }
 #if COUNT_SHADOWS
