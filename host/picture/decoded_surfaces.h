@@ -8,6 +8,7 @@
 #include "host/picture/web_in_view.h"
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/gbuffer.h"
+#include "kernels/shared/area/area_shape.h"
 #include "kernels/shared/light.h"
 #include "kernels/shared/view.h"
 
@@ -57,6 +58,7 @@ struct LitSurfaces {
     std::vector<ShadeLight> lights;             // view space
     std::vector<DirectionalLight> directional;  // view space
     std::vector<WebInView> webs;                // one per light, or none at all
+    std::vector<LightShape> shapes;             // view space; one per light, or none at all
 };
 
 /// The coarse cluster of the pixel at an index of the planes; none for background.

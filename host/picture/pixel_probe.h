@@ -10,6 +10,7 @@
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/clusters.h"
 #include "kernels/shared/gbuffer.h"
+#include "kernels/shared/area/area_shape.h"
 #include "kernels/shared/light.h"
 
 namespace kilolux {
@@ -20,6 +21,7 @@ struct ProbedLight {
     Light light{};             // camera-relative, world axes
     ShadeLight shade{};        // as shading has it, view space
     WebInView web{};           // its photometric web, if it has one
+    LightShape shape{};        // its shape, view space
     std::optional<bool> seen;  // with shadows: whether nothing hides it from the pixel
 };
 

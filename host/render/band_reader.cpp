@@ -65,6 +65,9 @@ void add_lights(const RenderContext& context, const Camera& camera, const LightR
     for (ProbedLight& light : probe.lights) {
         light.light = rows.local.at(light.index);
         light.shade = shade_light(view, light.light, light.index, tail_seed(settings, 0));
+        if (!rows.shapes.empty()) {
+            light.shape = shape_in_view(view, rows.shapes.at(light.index));
+        }
         if (rows.profiles.empty()) continue;
         AimedProfile row = rows.profiles.at(light.index);
         row = aimed_in_view(view, row);
@@ -261,7 +264,12 @@ LitSurfaces BandReader::lit_surfaces(const LastSample& last) {
     LitSurfaces out{pixels(last),
                     single_lights(download(gpu, lights.lights, lights.rows()), lights.count, nodes),
                     download(gpu, lights.directional, lights.directional_count),
+                    {},
                     {}};
+    if (lights.extras.shapes) {
+        out.shapes = single_lights(download(gpu, *lights.extras.shapes, lights.rows()),
+                                   lights.count, nodes);
+    }
     if (lights.extras.profiles) {
         const auto rows = download(gpu, *lights.extras.profiles, lights.rows());
         out.webs = webs_in_view(single_lights(rows, lights.count, nodes), context_.scene->scene());
@@ -281,7 +289,7 @@ PixelProbe BandReader::probe(const LastSample& last, const LightRows& rows, int 
         const uint cluster = cluster_index(band.grid, out.tile_x, out.tile_y, out.slice);
         out.has_list = true;
         for (uint i = band.coarse.offsets[cluster]; i < band.coarse.offsets[cluster + 1]; ++i) {
-            out.lights.push_back({band.coarse.lists[i], {}, {}, {}, {}});
+            out.lights.push_back({band.coarse.lists[i], {}, {}, {}, {}, {}});
         }
         out.coarse_count = static_cast<uint>(out.lights.size());
     }

@@ -28,6 +28,9 @@
 #ifndef HAS_RANDOM_RANGES
 #define HAS_RANDOM_RANGES 0
 #endif
+#if HAS_AREA_LIGHTS
+#include "kernels/shared/area/area_lobes.h"
+#endif
 #if HAS_LIGHT_EXTRAS
 #define EVALUATE(sum, p, light, extras, index) evaluate(sum, p, light, extras, index)
 #else

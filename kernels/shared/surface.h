@@ -4,9 +4,9 @@
 // Compile-time switches: SHADING, HAS_METALLIC, HAS_SPECULAR (KHR_materials_ior and
 // KHR_materials_specular), HAS_CLEARCOAT (KHR_materials_clearcoat), HAS_COAT_NORMAL,
 // HAS_SHEEN (KHR_materials_sheen), HAS_ANISOTROPY (ggx.h), HAS_TRANSMISSION
-// (KHR_materials_transmission), HAS_UNLIT. Features that the scene lacks are not compiled in;
-// compiling them in changes no bit of the radiance,
-// but for HAS_COAT_NORMAL in G-buffers that store normals otherwise than the coat's plane does.
+// (KHR_materials_transmission), HAS_UNLIT, HAS_AREA_LIGHTS (lights with a size). Features that the
+// scene lacks are not compiled in; compiling them in changes no bit of the radiance, but for
+// HAS_COAT_NORMAL in G-buffers that store normals otherwise than the coat's plane does.
 #ifndef KILOLUX_SHARED_SURFACE_H
 #define KILOLUX_SHARED_SURFACE_H
 #include "kernels/shared/evaluate_modes.h"
@@ -46,6 +46,13 @@
 // Whether the G-buffer may hold unlit surfaces: is_lit().
 #ifndef HAS_UNLIT
 #define HAS_UNLIT 0
+#endif
+// Whether shading points have what lights with a size need.
+#ifndef HAS_AREA_LIGHTS
+#define HAS_AREA_LIGHTS 0
+#endif
+#if HAS_AREA_LIGHTS
+#include "kernels/shared/area/area_lobe.h"
 #endif
 #define F0_VARIES (HAS_METALLIC || HAS_SPECULAR)
 // Clear coats and sheen are parts of glTF's model alone.
@@ -112,6 +119,16 @@ SHARED_PLAIN_STRUCT(ShadingPoint) {
     FV3 sheen_color;  // the colour times sheen.scale and below_coat
     FV sheen_most;    // the largest channel of its colour
 #endif
+#if HAS_AREA_LIGHTS
+    AreaFrame frame;
+#if SHADING == SHADING_PBR
+    AreaLobe area;
+#endif
+#if HAS_COAT
+    AreaFrame coat_frame;
+    AreaLobe coat_area;
+#endif
+#endif
 };
 
 // Reflectance head on of a surface whose dielectric part has `dielectric`.
@@ -149,6 +166,20 @@ SHARED_FN ShadingPoint with_coat(ShadingPoint p, Surface s) {
     FV f = schlick_rise(fv(1.0f) - p.coat.n_dot_v);
     p.coat_share = s.coat * fma(fv(1.0f) - f, fv(DIELECTRIC_F0), f);
     p.below_coat = fv(1.0f) - p.coat_share;
+    return p;
+}
+#endif
+
+#if HAS_AREA_LIGHTS
+SHARED_FN ShadingPoint with_area_lobes(ShadingPoint p) {
+    p.frame = make_area_frame(p.normal, p.to_eye);
+#if SHADING == SHADING_PBR
+    p.area = make_area_lobe(p.lobe, p.frame);
+#endif
+#if HAS_COAT
+    p.coat_frame = make_area_frame(p.coat_normal, p.to_eye);
+    p.coat_area = make_area_lobe(p.coat, p.coat_frame);
+#endif
     return p;
 }
 #endif
@@ -195,6 +226,9 @@ SHARED_FN ShadingPoint make_shading_point(Surface s, bool orthographic) {
 #if HAS_COAT
     p.sheen_color = scale3(p.sheen_color, p.below_coat);
 #endif
+#endif
+#if HAS_AREA_LIGHTS
+    p = with_area_lobes(p);
 #endif
     return p;
 }

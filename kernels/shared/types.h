@@ -228,12 +228,12 @@ SHARED_FN FV3 cross3(FV3 a, FV3 b) {
                fma(a.x, b.y, -(a.y * b.x)));
 }
 
-#if !defined(__cplusplus)
 SHARED_FN FV3 select3(MASK mask, FV3 a, FV3 b) {
     return fv3(lane_select(mask, a.x, b.x), lane_select(mask, a.y, b.y),
                lane_select(mask, a.z, b.z));
 }
 
+#if !defined(__cplusplus)
 // 1 / x within 2^-22, by sums and products alone: the same bits on every device. For the magnitudes
 // from 1e-37 to 1e37.
 SHARED_FN FV lane_reciprocal(FV x) {

@@ -99,16 +99,16 @@ TEST(Settings, ReachEveryMember) {
         return out;
     };
 #define BOTH(member) std::pair(a.member, b.member)
-    const auto reached =
-        differ(BOTH(renderer), BOTH(width), BOTH(height), BOTH(lights.count), BOTH(lights.seed),
-               BOTH(lights.radius), BOTH(lights.intensity), BOTH(lights.box), BOTH(tails),
-               BOTH(range_budget), BOTH(seed), BOTH(tree_share), BOTH(gbuffer), BOTH(geometry),
-               BOTH(anisotropy), BOTH(no_reuse), BOTH(shading), BOTH(shadows), BOTH(shadow_rays),
-               BOTH(ambient), BOTH(bloom), BOTH(exposure), BOTH(tone_curve), BOTH(samples),
-               BOTH(auto_samples.error), BOTH(auto_samples.most), BOTH(want.view), BOTH(want.aovs),
-               BOTH(grid.tiles_x), BOTH(grid.tiles_y), BOTH(grid.slices_per_octave),
-               BOTH(grid.fine_per_octave), BOTH(kernels.lanes), BOTH(kernels.math),
-               BOTH(kernels.light_colors), BOTH(max_memory_bytes), BOTH(device));
+    const auto reached = differ(
+        BOTH(renderer), BOTH(width), BOTH(height), BOTH(lights.count), BOTH(lights.seed),
+        BOTH(lights.radius), BOTH(lights.intensity), BOTH(lights.size), BOTH(lights.box),
+        BOTH(tails), BOTH(range_budget), BOTH(seed), BOTH(tree_share), BOTH(gbuffer),
+        BOTH(geometry), BOTH(anisotropy), BOTH(no_reuse), BOTH(shading), BOTH(shadows),
+        BOTH(shadow_rays), BOTH(ambient), BOTH(bloom), BOTH(exposure), BOTH(tone_curve),
+        BOTH(samples), BOTH(auto_samples.error), BOTH(auto_samples.most), BOTH(want.view),
+        BOTH(want.aovs), BOTH(grid.tiles_x), BOTH(grid.tiles_y), BOTH(grid.slices_per_octave),
+        BOTH(grid.fine_per_octave), BOTH(kernels.lanes), BOTH(kernels.math),
+        BOTH(kernels.light_colors), BOTH(max_memory_bytes), BOTH(device));
 #undef BOTH
     for (std::size_t i = 0; i < reached.size(); ++i) EXPECT_TRUE(reached[i]) << "member " << i;
 }

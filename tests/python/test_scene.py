@@ -100,7 +100,12 @@ def test_bad_meshes_are_refused_in_one_line(floor, mesh, words):
     ({"range": [1, 2, 3]}, r"lights: range has the shape \(3,\), must be \(2,\) or one for all"),
     ({"intensity": [1, 2, 3, 4]}, r"lights: intensity has the shape \(4, 1\), must be \(2, 3\)"),
     ({"direction": [[0, 1], [1, 0]]}, r"lights: direction has the shape \(2, 2\)"),
-    ({"kind": "area"}, "kind 'area' is none of point, spot, directional"),
+    ({"kind": "area"}, "kind 'area' is none of point, spot, directional, rect, disk, sphere, triangle"),
+    ({"kind": "rect", "width": 1.0}, "light 0: height is 0, must be above 0"),
+    ({"kind": "disk", "width": 1.0, "height": [1.0, -2.0]}, "light 1: height is -2, must be above 0"),
+    ({"kind": "sphere"}, "light 0: radius is 0, must be above 0"),
+    ({"kind": "rect", "width": 1, "height": 1, "direction": (0, 0, 0)}, "direction of light 0 is zero or not finite"),
+    ({"side": [[0, 1], [1, 0]]}, r"lights: side has the shape \(2, 2\)"),
     ({"kind": "spot", "direction": (0, 0, 0)}, "direction of light 0 is zero or not finite"),
     ({"kind": "spot", "inner_cone": 1.0, "outer_cone": 0.5}, "light 0: inner cone 1, outer cone 0.5: must be 0 <= inner < outer <= pi / 2"),
     ({"kind": "spot", "inner_cone": -0.5, "outer_cone": 0.5}, "light 0: inner cone -0.5, outer cone 0.5: must be 0 <= inner < outer <= pi / 2"),
@@ -138,3 +143,16 @@ def test_lights_that_cannot_be_are_left_out_with_a_warning(other, words):
     assert frame.stats["lights"]["used"] == 1 and frame.stats["lights"]["rejected"] == 1
     alone = kilolux.render("grid", resolution=(64, 48), lights=kilolux.Lights([[0, 1, 0]], range=2.0))
     np.testing.assert_array_equal(frame.radiance, alone.radiance)
+
+
+@pytest.mark.parametrize("kind, sizes", [
+    ("rect", {"width": 0.5, "height": [0.25, 0.5]}),
+    ("disk", {"width": 0.5, "height": 0.25, "side": (0, 0, 2), "two_sided": [True, False]}),
+    ("sphere", {"radius": 0.125}),
+    ("triangle", {"width": 0.5, "height": 0.25, "skew": -0.125}),
+])
+def test_lights_have_sizes(kind, sizes):
+    lights = kilolux.Lights([[0, 1, 0], [1, 1, 0]], 5.0, 4.0, kind=kind, **sizes)
+    frame = kilolux.render("grid", resolution=(64, 48), lights=lights)
+    assert frame.stats["lights"]["used"] == 2
+    assert "area-lights" in frame.stats["plan"]

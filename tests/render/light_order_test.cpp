@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The order in which kernels go through lights.
+// The order in which kernels go through lights, and their rows.
 #include "host/render/lights/light_order.h"
 
 #include <gtest/gtest.h>
@@ -7,8 +7,10 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
 
 #include "host/render/lights/generated_lights.h"
+#include "host/render/lights/light_rows.h"
 #include "host/scene/generated/scenes.h"
 #include "tests/support/test_gpu.h"
 
@@ -153,6 +155,96 @@ TEST(LightOrder, IsTheDevicesOrderOfGeneratedOnes) {
                     << radius << " m, " << time << " s, place " << i;
             }
         }
+    }
+}
+
+SceneLight light_of(LightType type) {
+    SceneLight light;
+    light.type = type;
+    light.range = 5.0f;
+    light.direction = {0, -1, 0};
+    light.side = {0, 0, 1};
+    light.width = 3.0f;
+    light.height = 0.5f;
+    light.radius = 0.25f;
+    return light;
+}
+
+TEST(LightRows, OfShapesHaveTheirAxesAndArea) {
+    const LightShape rectangle = shape_row(light_of(LightType::rectangle));
+    EXPECT_EQ(shape_kind(rectangle), SHAPE_RECTANGLE);
+    EXPECT_FALSE(shines_both_ways(rectangle));
+    EXPECT_EQ(rectangle.half_x.z, 1.5f);
+    EXPECT_EQ(rectangle.half_y.x, -0.25f) << "so that half_x x half_y is down";
+    EXPECT_FLOAT_EQ(rectangle.half_y.w, 1.0f / 1.5f);
+    SceneLight light = light_of(LightType::disk);
+    light.two_sided = true;
+    EXPECT_EQ(shape_kind(shape_row(light)), SHAPE_DISK);
+    EXPECT_TRUE(shines_both_ways(shape_row(light)));
+    const LightShape sphere = shape_row(light_of(LightType::sphere));
+    EXPECT_EQ(shape_kind(sphere), SHAPE_SPHERE);
+    EXPECT_EQ(sphere.half_x.x, 0.25f);
+    EXPECT_FLOAT_EQ(sphere.half_y.w, 5.092958f) << "1 / (pi r^2)";
+    for (const LightType type : {LightType::point, LightType::spot}) {
+        EXPECT_FALSE(has_size(shape_row(light_of(type))));
+    }
+}
+
+// Lists take a one-sided light's half-space for the cone of a spot.
+TEST(LightRows, OfOneSidedLightsHaveAHalfSpace) {
+    for (const LightType type : {LightType::rectangle, LightType::disk, LightType::triangle}) {
+        SceneLight light = light_of(type);
+        const Light row = world_light(light).light;
+        EXPECT_EQ(row.axis_cos.y, -1.0f);
+        EXPECT_EQ(row.axis_cos.w, 0.0f);
+        EXPECT_EQ(row.color_scale.w, 1.0f);
+        light.two_sided = true;
+        EXPECT_EQ(world_light(light).light.axis_cos.w, -1.0f);
+    }
+    EXPECT_EQ(world_light(light_of(LightType::sphere)).light.axis_cos.w, -1.0f);
+}
+
+TEST(LightRows, HaveAShapeBesideEachLocalLightOrNone) {
+    std::vector<SceneLight> lights = {light_of(LightType::point), light_of(LightType::directional),
+                                      light_of(LightType::spot)};
+    EXPECT_TRUE(make_light_rows(lights, {}).shapes.empty());
+    EXPECT_FALSE(make_light_rows(lights, {}).features.area_lights);
+    lights.insert(lights.begin() + 1, light_of(LightType::disk));
+    const LightRows rows = make_light_rows(lights, {});
+    ASSERT_EQ(rows.local.size(), 3u);
+    ASSERT_EQ(rows.shapes.size(), 3u);
+    EXPECT_FALSE(has_size(rows.shapes[0]));
+    EXPECT_EQ(shape_kind(rows.shapes[1]), SHAPE_DISK);
+    EXPECT_FALSE(has_size(rows.shapes[2]));
+    EXPECT_TRUE(rows.features.area_lights);
+}
+
+TEST(LightRows, LackLightsWhoseSizeIsNone) {
+    for (const LightType type : {LightType::rectangle, LightType::disk, LightType::sphere}) {
+        EXPECT_TRUE(is_usable(light_of(type), {}));
+        for (const float bad : {0.0f, -1.0f, NAN, INFINITY, 1e-30f, 1e30f}) {
+            SceneLight light = light_of(type);
+            light.width = light.height = light.radius = bad;
+            EXPECT_FALSE(is_usable(light, {})) << bad;
+        }
+        SceneLight light = light_of(type);
+        light.profile = 0;
+        EXPECT_FALSE(is_usable(light, {})) << "a web is a point's";
+    }
+}
+
+TEST(LightOrder, OfGeneratedSpheresIsThatOfPoints) {
+    const Scene scene = make_generated_scene("grid");
+    LightOptions options;
+    options.count = 10;
+    const std::vector<SceneLight> points = generate_lights(options, scene, 0.0);
+    options.size = 0.25;
+    std::vector<SceneLight> spheres = generate_lights(options, scene, 0.0);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        EXPECT_EQ(spheres[i].type, LightType::sphere);
+        EXPECT_EQ(std::exchange(spheres[i].radius, 0.0f), 0.25f);
+        spheres[i].type = LightType::point;
+        EXPECT_EQ(spheres[i], points[i]) << "their intensity, too";
     }
 }
 

@@ -126,6 +126,29 @@ TEST(ScenePlan, AutomaticShadingIsPbrWhereAnythingIsLit) {
     EXPECT_EQ(plan_of(scene, settings).kernels.shading, SHADING_PBR);
 }
 
+// The scene's own, and generated ones.
+TEST(ScenePlan, LightsWithASizeAreAFeatureThatBlinnPhongLacks) {
+    Scene scene = make_generated_scene("plain");
+    RenderSettings settings = settings_for(Shading::pbr);
+    const auto has_area = [&] { return has(plan_of(scene, settings).features, "area-lights"); };
+    EXPECT_FALSE(has_area());
+    settings.lights.size = 0.25;
+    EXPECT_TRUE(has_area());
+    settings.lights.count = 0;
+    EXPECT_FALSE(has_area());
+    SceneLight light;
+    light.type = LightType::disk;
+    light.range = 5.0f;
+    light.width = light.height = 1.0f;
+    scene.lights.push_back(light);
+    EXPECT_TRUE(has_area());
+    EXPECT_TRUE(plan_of(scene, settings).kernels.spot_lights) << "its half-space";
+    settings.shading = Shading::blinn_phong;
+    EXPECT_THROW(plan_of(scene, settings), UsageError);
+    settings.shading = Shading::lambert;
+    EXPECT_TRUE(has_area());
+}
+
 // A GLSL compiler may reorder operations: here features change last bits at most.
 TEST(ScenePlan, ForwardShadersRoundAlikeWithAFeature) {
     const Scene scene = make_generated_scene("plain");

@@ -50,7 +50,8 @@ CostEstimate estimate_cost(std::vector<double> differences_ms) {
 
 std::vector<FeatureCost> left_out_features(const ScenePlan& plan) {
     std::vector<std::string> names = plan.left_out;
-    if (plan.kernels.shading < SHADING_BLINN_PHONG) names.emplace_back("blinn-phong");
+    const bool can_be_phong = plan.kernels.shading < SHADING_BLINN_PHONG;
+    if (can_be_phong && !plan.kernels.area_lights) names.emplace_back("blinn-phong");
     if (plan.kernels.shading < SHADING_PBR) names.emplace_back("pbr");
     std::vector<FeatureCost> costs;
     for (const std::string& name : names) {

@@ -59,7 +59,7 @@ ReferenceOptions reference_options(const Renderer& renderer, const Camera& camer
 
 ReferencePicture shade_reference(const LitSurfaces& lit, const ReferenceOptions& options) {
     return shade_reference(surface_samples(lit.surfaces),
-                           reference_lights(lit.lights, lit.directional, lit.webs), options);
+                           reference_lights(lit.lights, lit.directional, {lit.webs, lit.shapes}), options);
 }
 
 ReferencePicture picture_reference(Renderer& renderer, const Camera& camera,
@@ -72,7 +72,7 @@ ReferencePicture picture_reference(Renderer& renderer, const Camera& camera,
     };
     return shade_reference(
         RayCaster(renderer.scene()).cast_layers(camera, settings.width, settings.height, may_end),
-        reference_lights(lit.lights, lit.directional, lit.webs), options);
+        reference_lights(lit.lights, lit.directional, {lit.webs, lit.shapes}), options);
 }
 
 }  // namespace kilolux

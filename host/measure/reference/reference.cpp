@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <optional>
 
@@ -52,6 +53,34 @@ void add_incident(Pixel& pixel, const SurfaceSample& surface, const glm::dvec3& 
     if (passed != glm::dvec3(0.0)) pixel.radiance.add(share * irradiance * passed);
 }
 
+// A light with a size that nothing hides: its radiance times BRDF times cosine over its solid angle.
+void add_area(Pixel& pixel, const SurfaceSample& surface, const ReferenceLight& light,
+              const ReferenceOptions& options) {
+    const double window = window_at(light, surface.position, options);
+    if (window == 0.0) return;
+    AreaShape shape = *light.shape;
+    shape.center = light.position - surface.position;
+    const glm::dvec3 luminance = light.intensity * (window * light.inverse_area);
+    const double side = glm::dot(shape.center, glm::cross(shape.half_x, shape.half_y));
+    const bool is_sphere = shape.kind == AreaKind::sphere;
+    const double margin = kReachMargin * glm::length(shape.half_x) * glm::length(shape.half_y) *
+                          glm::length(shape.center);
+    ++pixel.lights;
+    pixel.reaching += window > 2.0 * kReachMargin && (is_sphere || shape.two_sided || side < -margin);
+    // The irradiance of a disk of that area straight ahead, at least.
+    const double square = glm::dot(shape.center, shape.center);
+    pixel.scale.add(luminance / (square * light.inverse_area + 1.0 / std::numbers::pi));
+    const glm::dvec3 to_eye = direction_to_eye(surface.position, options.orthographic);
+    const auto reflected = [&](const glm::dvec3& to_light) {
+        return reference_reflection(surface, to_eye, to_light, options.shading);
+    };
+    const bool one_horizon = surface.coat == 0.0;
+    const AreaIntegral sum =
+        one_horizon ? integrate_area(shape, surface.normal, reflected, options.area_tolerance)
+                    : integrate_area(shape, reflected, options.area_tolerance);
+    pixel.radiance.add(luminance * sum.value);
+}
+
 Pixel shade(const SurfaceSample& surface, const ReferenceLights& lights,
             const ReferenceOptions& options) {
     Pixel pixel;
@@ -74,6 +103,10 @@ Pixel shade(const SurfaceSample& surface, const ReferenceLights& lights,
         });
     }
     for (const ReferenceLight& light : lights.lights) {
+        if (light.shape) {
+            add_area(pixel, surface, light, options);
+            continue;
+        }
         const Incidence in = incidence(light, surface.position, options);
         if (in.attenuation == 0.0) continue;
         ++pixel.lights;

@@ -32,6 +32,7 @@ struct ReferenceOptions {
     double light_d_min = 0.01;           // nearer than this the inverse square stops growing [m]
     double random_ranges = 0.0;          // RANDOM_RANGES of evaluate.h, for lights that have one
     bool windowed = true;                // false: unbounded inverse square, no light has a range
+    double area_tolerance = 1e-6;        // relative, of the integral over a light with a size
     OnProgress progress{};
     std::shared_ptr<const ShadowCaster> shadows{};  // none: every light is seen
     bool tinted_shadows = false;  // with shadows: surfaces that blend or transmit take their part
@@ -50,6 +51,8 @@ struct ReferencePicture {
 ///
 ///   pixel = emissive + ambient * occlusion * albedo
 ///           + sum of brdf * intensity * attenuation * max(n.l, 0)
+/// A light with a size: the integral over its solid angle of luminance * brdf * n.l, times its
+/// window.
 ///   attenuation = clamp(1 - (d/range)^4, 0, 1) / max(d, light_d_min)^2
 ///                 * clamp((cos - cos_out) scale, 0, 1)^2 * photometric web's share of its peak
 /// The direction to a light at distance d is v / max(d, light_d_min); a light at the shading point

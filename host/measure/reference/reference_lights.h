@@ -2,17 +2,20 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "host/measure/reference/area/area_light.h"
 #include "host/picture/web_in_view.h"
 #include "host/scene/camera.h"
 #include "host/scene/scene.h"
+#include "kernels/shared/area/area_shape.h"
 #include "kernels/shared/light.h"
 
 namespace kilolux {
 
-/// A point or spot light in view space, in double.
+/// A light that has a place, in view space, in double.
 struct ReferenceLight {
     glm::dvec3 position{0.0};  // [m]
     double inv_range2 = 0.0;   // 1/range^2 [1/m^2]; 0: no range
@@ -22,6 +25,8 @@ struct ReferenceLight {
     double cos_out = -1.0;      // of the outer cone's half angle
     double cone_scale = 1.0;    // 1/(cos_in - cos_out)
     WebInView web{};
+    std::optional<AreaShape> shape{};  // about `position`; none: it has no size
+    double inverse_area = 0.0;         // of a shape: luminance = intensity * this [1/m^2]
 };
 
 /// A directional light in view space, in double.
@@ -38,6 +43,7 @@ struct Incidence {
 };
 
 struct ReferenceOptions;
+/// A light without a size.
 Incidence incidence(const ReferenceLight& light, const glm::dvec3& position,
                     const ReferenceOptions& options);
 
@@ -46,10 +52,20 @@ struct ReferenceLights {
     std::vector<ReferenceDirectionalLight> directional;
 };
 
-/// From the float32 rows that the kernels shade with: for R1. `webs`: one per light, or none.
+/// The factor of the range on a light's inverse square: its window, or what a random range weighs.
+double window_at(const ReferenceLight& light, const glm::dvec3& position,
+                 const ReferenceOptions& options);
+
+/// Rows beside those of lights, one per light, or none at all.
+struct ReferenceExtras {
+    std::span<const WebInView> webs;
+    std::span<const LightShape> shapes;  // view space
+};
+
+/// From the float32 rows that the kernels shade with: for R1.
 ReferenceLights reference_lights(std::span<const ShadeLight> lights,
                                  std::span<const DirectionalLight> directional,
-                                 std::span<const WebInView> webs = {});
+                                 const ReferenceExtras& extras = {});
 
 /// From a scene's lights, without rounding to float32: for R2 and R3. Lights without a range keep
 /// none. The cone's smallest width is that of KHR_lights_punctual: cos_in - cos_out >= 0.001.

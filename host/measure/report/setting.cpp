@@ -126,9 +126,10 @@ void add_shadings(Variants& v, const Scene& scene) {
     constexpr std::pair<Shading, const char*> kShadings[] = {{Shading::lambert, "lambert"},
                                                              {Shading::blinn_phong, "blinn-phong"},
                                                              {Shading::pbr, "pbr"}};
-    const Shading chosen = shading_of(make_scene_plan(scene, v.base, 0).kernels);
+    const KernelFeatures kernels = make_scene_plan(scene, v.base, 0).kernels;
     for (const auto& [model, name] : kShadings) {
-        if (model == chosen) continue;
+        const bool lacks_areas = kernels.area_lights && model == Shading::blinn_phong;
+        if (model == shading_of(kernels) || lacks_areas) continue;
         v.add_option(SettingAxis::shading, name,
                      [shading = model](RenderSettings& s) { s.shading = shading; });
     }

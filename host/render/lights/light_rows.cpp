@@ -28,7 +28,7 @@ bool has_direction(const glm::dvec3& direction) {
 // Whether its row can hold one over the area, by which intensity becomes luminance.
 bool has_good_area(const SceneLight& light) {
     const auto inverse = static_cast<float>(1.0 / seen_area(light));
-    return kind_of(light).shape == SHAPE_POINT || std::isnormal(inverse);
+    return !is_area_light(light) || std::isnormal(inverse);
 }
 
 Light row_of(const SceneLight& light, const glm::dvec3& relative) {
@@ -60,7 +60,7 @@ bool is_usable(const SceneLight& light, const glm::dvec3& camera_position) {
     if (!gives_light(light.intensity)) return false;
     const LightKind& kind = kind_of(light);
     if ((kind.is_aimed || light.profile >= 0) && !has_direction(light.direction)) return false;
-    if (kind.shape != SHAPE_POINT && light.profile >= 0) return false;
+    if (is_area_light(light) && light.profile >= 0) return false;
     const glm::dvec3 relative = light.position - camera_position;
     const bool placed = is_finite(relative) && glm::length(relative) < kFarthest;
     return (placed || !kind.is_placed) && has_good_numbers(light) && has_good_area(light);
@@ -84,7 +84,7 @@ AimedProfile aimed_profile(const SceneLight& light, const Scene& scene,
 
 LightShape shape_row(const SceneLight& light) {
     const LightKind& kind = kind_of(light);
-    if (kind.shape == SHAPE_POINT) return {};
+    if (!is_area_light(light)) return {};
     const LightEdges edges = edges_of(light);
     const glm::vec3 x(kind.has_radius ? glm::dvec3(light.radius, 0.0, 0.0) : edges.x), y(edges.y);
     const float shape = static_cast<float>(kind.shape);
@@ -109,7 +109,7 @@ LightRows make_light_rows(std::span<const SceneLight> lights, const glm::dvec3& 
         add_features(rows.features, light);
         if (kind_of(light).is_placed) {
             rows.local.push_back(row_of(light, light.position - camera_position));
-            if (kind_of(light).shape == SHAPE_POINT) continue;
+            if (!is_area_light(light)) continue;
             rows.shapes.resize(rows.local.size());
             rows.shapes.back() = shape_row(light);
         } else {

@@ -165,6 +165,11 @@ void LightSource::upload_tables() {
     input_.extras.profile_tables = uploaded_tables_.get();
 }
 
+// As the scene plan's SceneFeatures::area_lights.
+bool LightSource::has_area_lights() const {
+    return (options_.count > 0 && options_.size > 0.0) || std::ranges::any_of(own_, &is_area_light);
+}
+
 // Uploads a row beside each light's: `row_of` makes it, `drifting_row` is that of generated ones.
 template <typename Row>
 DeviceArray<Row> LightSource::upload_extras(GrowingArray<Row>& to, const Row& drifting_row,
@@ -187,9 +192,9 @@ void LightSource::upload() {
         };
         input_.extras.profiles = upload_extras(profiles_, row_of({}), row_of);
     }
-    if (has_area_lights_) {
-        input_.extras.shapes =
-            upload_extras(shapes_, shape_row(generated_light(options_)), shape_row);
+    if (has_area_lights()) {
+        const SceneLight drifting_light = drifting() > 0 ? generated_.first() : SceneLight();
+        input_.extras.shapes = upload_extras(shapes_, shape_row(drifting_light), shape_row);
     }
     const std::span<WorldLight> rows = move_.stage(row_count() - drifting());
     tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {

@@ -70,6 +70,7 @@ class LightSource {
     void plant_tree(const std::vector<std::uint32_t>& members);
     void upload();
     void upload_tables();
+    bool has_area_lights() const;
     template <typename Row>
     DeviceArray<Row> upload_extras(GrowingArray<Row>& to, const Row& drifting_row, auto&& row_of);
 

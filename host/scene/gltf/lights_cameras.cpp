@@ -73,8 +73,9 @@ SceneLight convert_light(const GltfDocument& document, std::size_t e, std::size_
 std::string radius_problem(const json& source, std::string_view extension) {
     const json* radius = find_member(source, "extras.radius");
     if (radius == nullptr) return "";
-    if (!radius->is_number() || *radius < 0.0) {
-        return fmt::format("extras.radius is {}, must be a number, at least 0", radius->dump());
+    if (!radius->is_number()) return "extras.radius must be a number";
+    if (*radius < 0.0) {
+        return fmt::format("extras.radius is {}, must be at least 0", radius->get<double>());
     }
     const LightKind& kind = kind_in_file(source, extension, *radius);
     if (*radius == 0.0 || kind.has_radius) return "";

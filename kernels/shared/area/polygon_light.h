@@ -82,11 +82,6 @@ SHARED_FN FV3 horizon_point(FV center_z, FV3 p, FV3 q) {
     return fv3(fma(q.x - p.x, t, p.x), fma(q.y - p.y, t, p.y), -center_z);
 }
 
-SHARED_FN FV3 lane_select3(MASK mask, FV3 a, FV3 b) {
-    return fv3(lane_select(mask, a.x, b.x), lane_select(mask, a.y, b.y),
-               lane_select(mask, a.z, b.z));
-}
-
 // 1 where a point is below the horizon, else 0.
 SHARED_FN FV below_horizon(FV3 center, FV3 offset) {
     return lane_select(center.z + offset.z < 0.0f, fv(1.0f), fv(0.0f));
@@ -100,8 +95,8 @@ SHARED_PLAIN_STRUCT(EdgeSums) { FV near, far; };
 // the common point.
 SHARED_FN EdgeSums cut_edge(FV3 center, FV3 p, FV3 q, FV3 cut, FV3 pivot) {
     FV p_below = below_horizon(center, p), q_below = below_horizon(center, q);
-    p = lane_select3(p_below > 0.0f, cut, p);
-    q = lane_select3(q_below > 0.0f, cut, q);
+    p = select3(p_below > 0.0f, cut, p);
+    q = select3(q_below > 0.0f, cut, q);
     FV above = fma(-p_below, q_below, fv(1.0f));
     FV3 first = add3(center, pivot);
     FV3 to_p = scale3(sub3(p, pivot), fv(0.5f)), to_q = scale3(sub3(q, pivot), fv(0.5f));
@@ -113,7 +108,7 @@ SHARED_FN EdgeSums cut_edge(FV3 center, FV3 p, FV3 q, FV3 cut, FV3 pivot) {
     return sums;
 }
 
-SHARED_FN EdgeSums add_sums(EdgeSums a, EdgeSums b) {
+SHARED_FN EdgeSums add_edges(EdgeSums a, EdgeSums b) {
     a.near += b.near;
     a.far += b.far;
     return a;
@@ -126,12 +121,11 @@ SHARED_FN EdgeSums cut_polygon(FV3 center, Corners at) {
     FV3 ab = horizon_point(center.z, at.a, at.b), bc = horizon_point(center.z, at.b, at.c);
     FV3 cd = horizon_point(center.z, at.c, at.d), da = horizon_point(center.z, at.d, at.a);
     // A convex outline sets once and rises once.
-    FV3 set = lane_select3(b > a, ab, lane_select3(c > b, bc, lane_select3(d > c, cd, da)));
-    FV3 rise = lane_select3(b < a, ab, lane_select3(c < b, bc, lane_select3(d < c, cd, da)));
-    EdgeSums sums = add_sums(add_sums(cut_edge(center, at.a, at.b, ab, set),
-                                      cut_edge(center, at.b, at.c, bc, set)),
-                             add_sums(cut_edge(center, at.c, at.d, cd, set),
-                                      cut_edge(center, at.d, at.a, da, set)));
+    FV3 set = select3(b > a, ab, select3(c > b, bc, select3(d > c, cd, da)));
+    FV3 rise = select3(b < a, ab, select3(c < b, bc, select3(d < c, cd, da)));
+    EdgeSums sums = add_edges(
+        add_edges(cut_edge(center, at.a, at.b, ab, set), cut_edge(center, at.b, at.c, bc, set)),
+        add_edges(cut_edge(center, at.c, at.d, cd, set), cut_edge(center, at.d, at.a, da, set)));
     sums.near += any_edge(add3(center, set), add3(center, rise));
     return sums;
 }
@@ -162,9 +156,9 @@ SHARED_FN FV parallelogram_cosine(FV3 center, FV3 half_x, FV3 half_y) {
     FV3 sum = add3(half_x, half_y), difference = sub3(half_x, half_y);
     FV square = dot3(half_x, half_x) + dot3(half_y, half_y);
     MASK large = square > dot3(center, center) * SMALL_LIGHT;
-    FV whole = four_samples(center, scale3(half_x, fv(0.577350269f)),
-                            scale3(half_y, fv(0.577350269f)),
-                            -dot3(center, cross3(half_x, half_y)));
+    FV whole =
+        four_samples(center, scale3(half_x, fv(0.577350269f)), scale3(half_y, fv(0.577350269f)),
+                     -dot3(center, cross3(half_x, half_y)));
     if (lane_any(large)) {
         FV edges = edge_sum(sub3(center, sum), add3(center, difference), add3(center, sum),
                             sub3(center, difference));

@@ -5,6 +5,7 @@
 #ifndef KILOLUX_SHARED_AREA_ROUND_LIGHT_H
 #define KILOLUX_SHARED_AREA_ROUND_LIGHT_H
 #include "kernels/shared/area/polygon_light.h"
+#include "kernels/shared/power.h"
 #include "kernels/shared/types.h"
 
 #if defined(__cplusplus)
@@ -91,6 +92,7 @@ SHARED_FN FlatLight sphere_disk(FV3 center, FV radius) {
 
 // The root above 0 of k^3 + a k^2 + b k - c, whose other roots are below 0, from above: Laguerre.
 SHARED_FN FV largest_root(FV k, FV a, FV b, FV c) {
+    k = lane_select(b > 0.0f, min(k, lane_divide(c, max(b, fv(1e-37f)))), k);
     for (int i = 0; i < 3; ++i) {
         FV value = fma(fma(k + a, k, b), k, -c);
         FV slope = fma(fma(fv(3.0f), k, 2.0f * a), k, b);
@@ -102,31 +104,102 @@ SHARED_FN FV largest_root(FV k, FV a, FV b, FV c) {
     return k;
 }
 
-// As disk_cosine, for lights of any size and at the horizon. The cone over the ellipse has the
-// axes of the matrix W = half_x half_x^T + half_y half_y^T - center center^T. -k: its eigenvalue
-// below 0, of the axis.
-SHARED_FN FV ellipse_cosine(FV3 center, FV3 half_x, FV3 half_y) {
+// The cone over an ellipse: the axes of the matrix W = half_x half_x^T + half_y half_y^T -
+// center center^T. Its eigenvalues are -k, of the cone's axis, and p >= q >= 0: the squares of the
+// half axes of the ellipse in which a plane across the axis at the distance sqrt(k) cuts the cone.
+SHARED_PLAIN_STRUCT(EllipseCone) {
+    FV k, p, q;
+    FV axis_z;
+    FV spread;  // p a^2 + q b^2 for the components a and b of the normal along the other two axes
+    FV faced;   // the irradiance on a surface that faces along the axis [sr]
+};
+
+SHARED_FN EllipseCone ellipse_cone(FV3 center, FV3 half_x, FV3 half_y) {
     FV scale = inverse_length(dot3(center, center) + dot3(half_x, half_x) + dot3(half_y, half_y));
     FV3 c = scale3(center, scale), x = scale3(half_x, scale), y = scale3(half_y, scale);
     FV3 area = cross3(x, y), over_x = cross3(c, x), over_y = cross3(c, y);
-    FV volume = dot3(c, area);
-    FV cc = dot3(c, c), size = dot3(x, x) + dot3(y, y);
-    FV minors = dot3(area, area) - dot3(over_x, over_x) - dot3(over_y, over_y);
+    FV volume = dot3(c, area), cc = dot3(c, c), size = dot3(x, x) + dot3(y, y);
+    FV minors = dot3(area, area) - (dot3(over_x, over_x) + dot3(over_y, over_y));
     FV k = max(largest_root(cc, size - cc, minors, volume * volume), fv(1e-37f));
-    // (k + p) (k + q) for the other eigenvalues p and q.
+    // (k + p) (k + q): the slope of the characteristic polynomial.
     FV slope = max(fma(fma(fv(3.0f), k, 2.0f * (size - cc)), k, minors), fv(1e-37f));
     FV cx = dot3(c, x), cy = dot3(c, y);
-    // The adjugate of W + k, which is slope * axis axis^T, times the centre: z, and along it.
+    // slope * axis axis^T, the adjugate of W + k, times the centre: its z, and its product with it.
     FV along_z = fma(k, fma(k + size, c.z, -fma(cx, x.z, cy * y.z)), volume * area.z);
     FV along = fma(k, fma(k + size, cc, -fma(cx, cx, cy * cy)), volume * volume);
-    FV axis_z = along_z * inverse_length(slope * along);
-    axis_z = max(min(axis_z, fv(1.0f)), fv(-1.0f));
-    FV faced = fv(3.14159265f) * -volume * inverse_length(k * slope);
-    // The square of the horizon's largest distance below the axis over the cone.
-    FV spread = fma(k * axis_z, axis_z, fma(x.z, x.z, fma(y.z, y.z, -c.z * c.z)));
-    FV rest = k * fma(-axis_z, axis_z, fv(1.0f));
-    FV both = lane_divide(fv(1.0f), max(spread + rest, fv(1e-37f)));
-    return faced * cone_cosine(axis_z, max(spread * both, fv(1e-37f)), max(rest * both, fv(0.0f)));
+    EllipseCone cone;
+    cone.k = k;
+    cone.axis_z = max(min(along_z * inverse_length(slope * along), fv(1.0f)), fv(-1.0f));
+    cone.faced = fv(-3.14159265f) * volume * inverse_length(k * slope);
+    cone.spread = max(fma(k * cone.axis_z, cone.axis_z,
+                          fma(x.z, x.z, fma(y.z, y.z, -(c.z * c.z)))), fv(0.0f));
+    // p q and p + q, by whichever form does not cancel.
+    FV product = volume * lane_divide(volume, k);
+    FV sum = lane_select(cc > size, lane_divide(product - minors, k), (size - cc) + k);
+    cone.p = fma(sum, fv(0.5f), lane_sqrt(max(fma(0.25f * sum, sum, -product), fv(0.0f))));
+    cone.p = max(cone.p, fv(1e-30f));
+    cone.q = min(lane_divide(product, cone.p), cone.p);
+    return cone;
+}
+
+// atan2(cross, dot), from -pi to pi.
+SHARED_FN FV turn_of(FV cross, FV dot) {
+    FV inverse = inverse_length(fma(cross, cross, dot * dot));
+    FV x = min(max(dot, -dot) * inverse, fv(1.0f)), sine = max(cross, -cross) * inverse;
+    FV angle = angle_over_sine(x) * sine;
+    angle = lane_select(dot < 0.0f, fv(3.14159265f) - angle, angle);
+    return lane_select(cross < 0.0f, -angle, angle);
+}
+
+// The cone's irradiance where the horizon cuts it: the integral along the outline, which is
+// (sqrt(p) cos(f), sqrt(q) sin(f), sqrt(k)) about its axes, and the edge on the horizon.
+SHARED_FN FV cut_ellipse_cosine(EllipseCone cone) {
+    FV k = cone.k, p = cone.p, q = cone.q;
+    FV pq = max(p - q, p * 1e-6f), pk = p + k, qk = q + k;
+    FV side2 = max(fma(-cone.axis_z, cone.axis_z, fv(1.0f)), fv(0.0f));
+    FV a2 = max(min(lane_divide(fma(-q, side2, cone.spread), pq), side2), fv(0.0f));
+    FV root_p = lane_sqrt(p), root_q = lane_sqrt(q), root_k = lane_sqrt(k);
+    FV a = lane_sqrt(a2), b = lane_sqrt(max(side2 - a2, fv(0.0f)));
+    // The middle of the part above the horizon, and half of its angle.
+    FV x = root_p * a, y = root_q * b;
+    FV inverse = inverse_length(fma(x, x, y * y));
+    FV c0 = x * inverse, s0 = y * inverse;
+    FV c = max(min(-cone.axis_z * root_k * inverse, fv(1.0f)), fv(-1.0f));
+    FV s = lane_sqrt((1.0f - c) * (1.0f + c));
+    FV from_c = fma(c0, c, s0 * s), from_s = fma(s0, c, -(c0 * s));
+    FV to_c = fma(c0, c, -(s0 * s)), to_s = fma(s0, c, c0 * s);
+    FV root_pk = lane_sqrt(pk), root_qk = lane_sqrt(qk), root_pq = lane_sqrt(pq);
+    // Three integrals: of 1, of the cosine and of the sine, over the square of the distance.
+    FV around = turn_of(root_pk * root_qk * 2.0f * s * c, fma(pk * from_c, to_c, qk * from_s * to_s));
+    around = lane_select(around < 0.0f, around + 6.28318531f, around);
+    FV sum = lane_divide(cone.axis_z * root_p * root_q * around, root_pk * root_qk);
+    FV e = lane_divide(root_pq, root_pk);
+    FV up = lane_divide((1.0f + e * to_s) * (1.0f - e * from_s),
+                        max((1.0f - e * to_s) * (1.0f + e * from_s), fv(1e-30f)));
+    sum -= lane_divide(a * root_q * root_k * 0.346573590f * log2_of(up), root_pk * root_pq);
+    FV across = turn_of(root_qk * root_pq * (from_c - to_c), fma(pq * from_c, to_c, qk));
+    sum -= lane_divide(b * root_p * root_k * across, root_qk * root_pq);
+    // The edge on the horizon.
+    FV normal = fma(a * root_q * root_k, to_s - from_s,
+                    fma(b * root_p * root_k, from_c - to_c,
+                        cone.axis_z * root_p * root_q * (-2.0f * s * c)));
+    FV dot = fma(p * from_c, to_c, fma(q * from_s, to_s, k));
+    return 0.5f * (sum + turn_of(max(normal, fv(0.0f)), dot));
+}
+
+// As disk_cosine, for lights of any size and at the horizon. `large`: where the integral along the
+// outline is used; it cancels in small lights, whose cut is that of the circular cone about the
+// same axis that touches the horizon with them.
+SHARED_FN FV ellipse_cosine(FV3 center, FV3 half_x, FV3 half_y, MASK large) {
+    EllipseCone cone = ellipse_cone(center, half_x, half_y);
+    FV rest = cone.k * fma(-cone.axis_z, cone.axis_z, fv(1.0f));
+    FV both = lane_divide(fv(1.0f), max(cone.spread + rest, fv(1e-37f)));
+    FV sine2 = max(cone.spread * both, fv(1e-37f));
+    FV cosine = cone.faced * cone_cosine(cone.axis_z, sine2, rest * both);
+    FV cut = lane_select(large, sine2 - cone.axis_z * cone.axis_z, fv(0.0f));
+    if (lane_any(cut > 0.0f))
+        cosine = lane_select(cut > 0.0f, cut_ellipse_cosine(cone), cosine);
+    return lane_select(cone.faced > 0.0f, cosine, fv(0.0f));
 }
 
 // An ellipse that shines to the side of half_x x half_y.
@@ -139,7 +212,7 @@ SHARED_FN FV disk_cosine(FV3 center, FV3 half_x, FV3 half_y) {
     MASK large = square > dot3(center, center) * SMALL_LIGHT;
     FV exact = lane_select(cut, fv(1.0f), lane_select(large, fv(1.0f), fv(0.0f)));
     if (lane_any(exact > 0.0f))
-        whole = lane_select(exact > 0.0f, ellipse_cosine(center, half_x, half_y), whole);
+        whole = lane_select(exact > 0.0f, ellipse_cosine(center, half_x, half_y, large), whole);
     return max(min(whole, fv(3.14159265f)), fv(0.0f));
 }
 

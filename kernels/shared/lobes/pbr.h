@@ -33,23 +33,13 @@ SHARED_FN FV specular_weight(FV lobe, FV reflectance, FV above) {
 #endif
 }
 
-// Adds the light that the surface below coat and sheen reflects, and what they do, by its weights
-// `above`.
-SHARED_FN LightSum add_pbr(LightSum sum, ShadingPoint p, HalfVector half_way, IncidentLight from,
-                           FV3 above, float4 color) {
-    FV lit = from.lit;
-#if HAS_ANISOTROPY
-    FV lobe = stretched_light(p.lobe, half_way, from.n_dot_l, lit);
-#else
-    FV lobe = ggx_light(p.lobe, half_way, from.n_dot_l, lit);
-#endif
-    FV f = schlick_rise(fma(-dot3(p.to_eye, half_way.h), lane_rsqrt(half_way.hh), fv(1.0f)));
-    FV kept = diffuse_share(p, f), g = kept;
+// Adds `lobe` times its reflectance at Schlick's rise f, and the weights `above` of what coat and
+// sheen do. g: 1 - f.
+SHARED_FN LightSum add_specular(LightSum sum, ShadingPoint p, FV lobe, FV f, FV g, FV3 above,
+                                float4 color) {
 #if HAS_SPECULAR
-    g = fv(1.0f) - f;
     f = f * p.f90;
 #endif
-    sum.diffuse = add_scaled(sum.diffuse, lit * kept, color);
 #if F0_VARIES
     FV3 reflectance = fv3(fma(g, p.f0.x, f), fma(g, p.f0.y, f), fma(g, p.f0.z, f));
 #else
@@ -67,6 +57,25 @@ SHARED_FN LightSum add_pbr(LightSum sum, ShadingPoint p, HalfVector half_way, In
     sum.specular = add_scaled(sum.specular, weight, color);
 #endif
     return sum;
+}
+
+// Adds the light that the surface below coat and sheen reflects, and what they do, by its weights
+// `above`.
+SHARED_FN LightSum add_pbr(LightSum sum, ShadingPoint p, HalfVector half_way, IncidentLight from,
+                           FV3 above, float4 color) {
+    FV lit = from.lit;
+#if HAS_ANISOTROPY
+    FV lobe = stretched_light(p.lobe, half_way, from.n_dot_l, lit);
+#else
+    FV lobe = ggx_light(p.lobe, half_way, from.n_dot_l, lit);
+#endif
+    FV f = schlick_rise(fma(-dot3(p.to_eye, half_way.h), lane_rsqrt(half_way.hh), fv(1.0f)));
+    FV kept = diffuse_share(p, f), g = kept;
+#if HAS_SPECULAR
+    g = fv(1.0f) - f;
+#endif
+    sum.diffuse = add_scaled(sum.diffuse, lit * kept, color);
+    return add_specular(sum, p, lobe, f, g, above, color);
 }
 
 #if HAS_COAT
