@@ -22,7 +22,7 @@ struct ProbedLight {
     ShadeLight shade{};        // as shading has it, view space
     WebInView web{};           // its photometric web, if it has one
     LightShape shape{};        // its shape, view space
-    std::optional<bool> seen;  // with shadows: whether nothing hides it from the pixel
+    std::optional<bool> seen{};  // with shadows: whether nothing hides it from the pixel
 };
 
 /// SURFACE_*: view space; depth 0: background.

@@ -289,7 +289,7 @@ PixelProbe BandReader::probe(const LastSample& last, const LightRows& rows, int 
         const uint cluster = cluster_index(band.grid, out.tile_x, out.tile_y, out.slice);
         out.has_list = true;
         for (uint i = band.coarse.offsets[cluster]; i < band.coarse.offsets[cluster + 1]; ++i) {
-            out.lights.push_back({band.coarse.lists[i], {}, {}, {}, {}, {}});
+            out.lights.push_back({.index = band.coarse.lists[i]});
         }
         out.coarse_count = static_cast<uint>(out.lights.size());
     }
@@ -362,7 +362,7 @@ void BandReader::probe_lists(const LastSample& last, int x, int y, PixelProbe& o
     out.coarse_count = found.coarse_count;
     out.active = found.active;
     out.has_list = found.active.has_value();
-    for (const uint light : found.lights) out.lights.push_back({light, {}, {}, {}, {}});
+    for (const uint light : found.lights) out.lights.push_back({.index = light});
     const KernelFeatures& kernels = context_.plan.kernels;
     if (!kernels.shadows || kernels.sampled_shadows || !found.active) return;
     const std::vector<bool> seen = seen_lights(band, *found.active, column, row);

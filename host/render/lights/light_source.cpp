@@ -67,6 +67,7 @@ LightSource::LightSource(const Gpu& gpu, const Tuning& tuning, const Scene& scen
       directional_(gpu, "lights"),
       profile_starts_(profile_starts(scene.webs)),
       profiles_(gpu, "lights"),
+      shapes_(gpu, "lights"),
       uploaded_tables_(gpu, "lights"),
       nodes_(gpu, "lights") {
     if (!scene.aimed_profiles.empty()) upload_tables();

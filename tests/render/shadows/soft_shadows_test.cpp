@@ -110,6 +110,18 @@ std::vector<PixelTruth> truth_of(const ShadowScenario& scenario, Renderer& rende
             seen += caster.sees(*point, at) ? weight : 0.0;
         });
         if (all > 0.0) out[i] = {true, seen / all};
+        if (!(seen > 0.0 && seen < all) || steps > 100) continue;
+        all = seen = 0.0;
+        for_each_part(light, 256, [&](const glm::dvec3& at, const glm::dvec3& normal, double) {
+            const glm::dvec3 to = at - surface.position;
+            const double cosines =
+                std::max(0.0, -glm::dot(to, normal)) * std::max(0.0, glm::dot(to, surface.normal));
+            const double weight = cosines / std::pow(glm::dot(to, to), 2.0);
+            if (weight == 0.0) return;
+            all += weight;
+            seen += caster.sees(*point, at) ? weight : 0.0;
+        });
+        out[i].seen = seen / all;
     }
     return out;
 }
@@ -124,6 +136,7 @@ TEST(SoftShadows, Experiment) {
         Renderer off(scenario.scene, settings);
         const Frame whole = off.render(scenario.camera, 0.0);
         const auto truth = truth_of(scenario, off, 64);
+        const SurfaceSamples surfaces = surface_samples(off.lit_surfaces().surfaces);
         settings.shadows = Shadows::sampled;
         settings.want.aovs = {"error-standard"};
         const int kSeeds = 64;
@@ -154,6 +167,12 @@ TEST(SoftShadows, Experiment) {
                 const double var = (squares[i] - sum[i] * mean) / (kSeeds - 1);
                 const double est = estimated[i] / kSeeds;
                 const double off_by = mean - truth[i].seen;
+                if (std::abs(off_by) > 0.03 && rays == 16) {
+                    const auto& q = surfaces.pixels[i];
+                    const glm::dvec3 w = scenario.camera.world_from_view * q.position + scenario.camera.position;
+                    const glm::dvec3 nw = scenario.camera.world_from_view * q.normal;
+                    printf("  pixel %zu truth %.4f mean %.4f est %.3g whole %g at %g %g %g n %g %g %g\n", i, truth[i].seen, mean, std::sqrt(est/kSeeds), luminance_of(whole.radiance, i), w.x,w.y,w.z,nw.x,nw.y,nw.z);
+                }
                 if (truth[i].seen == 0.0) ++umbras, umbra = std::max(umbra, std::abs(mean));
                 if (truth[i].seen == 1.0) ++lits, lit = std::max(lit, std::abs(mean - 1.0));
                 bias += off_by;
