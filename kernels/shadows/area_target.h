@@ -16,7 +16,7 @@
 
 // Most points that are drawn for one ray until one is kept. Of a light that is wholly above the
 // horizon a quarter or more are kept: after 64 none is left in 1e-8 of the cases. Where the horizon
-// leaves little of a light, the last point above it is taken.
+// leaves little of a light, the last point above it is taken, else about the highest one.
 #define AREA_ATTEMPTS 64u
 
 // A light as the target of rays.
@@ -58,7 +58,7 @@ static inline FV3 area_targets(AreaLight light, AreaOrigins from, MASK wanted) {
     FV3 p = from.position;
     FV3 center = fv3(fv(light.center.x) - p.x, fv(light.center.y) - p.y, fv(light.center.z) - p.z);
     const SeenShape seen = see_shape(light.shape, center, from.normal);
-    FV3 out = center;
+    FV3 out = seen.highest;
     MASK left = wanted;
     for (uint attempt = 0; attempt < AREA_ATTEMPTS && lane_any(left); ++attempt) {
         LaneFractions random = ray_fractions(light.key, from.key, light.slot, attempt);

@@ -39,6 +39,7 @@ SHARED_PLAIN_STRUCT(SeenShape) {
     FV distance;         // of the farthest corner; of a sphere's centre [m]
     FV solid_angle;      // of the samples [sr]; 0 where nothing is seen
     FV most;             // no cosine with the normal is larger; 0 or less: none is positive
+    FV3 highest;         // a point of the shape that is about highest above the surface [m]
 };
 
 // A direction towards a shape.
@@ -86,6 +87,17 @@ SHARED_FN FV most_cosine(FV highest, FV lowest) {
     return lane_select(is_narrow, min(most, fv(1.0f)), fv(1.0f));
 }
 
+SHARED_FN FV3 higher(FV3 a, FV3 b, FV3 normal) {
+    return pick3(dot3(a, normal) < dot3(b, normal), b, a);
+}
+
+// Of an ellipse.
+SHARED_FN FV3 highest_of_ellipse(SeenShape of) {
+    FV x = dot3(of.half_x, of.normal), y = dot3(of.half_y, of.normal);
+    FV inverse = lane_rsqrt(max(fma(x, x, y * y), fv(1e-36f)));
+    return add_along(add_along(of.center, of.half_x, x * inverse), of.half_y, y * inverse);
+}
+
 SHARED_FN SeenShape see_polygon(SeenShape out, FV3 a, FV3 b, FV3 c, FV3 d) {
     FV3 first = unit_direction(a), second = unit_direction(b);
     FV3 third = unit_direction(c), last = unit_direction(d);
@@ -100,6 +112,8 @@ SHARED_FN SeenShape see_polygon(SeenShape out, FV3 a, FV3 b, FV3 c, FV3 d) {
     FV highest = max(max(dot3(n, first), dot3(n, second)), max(dot3(n, third), dot3(n, last)));
     out.most = lane_select(highest > fv(0.0f), most_cosine(highest, lowest), fv(0.0f));
     out.distance = lane_sqrt(max(max(dot3(a, a), dot3(b, b)), max(dot3(c, c), dot3(d, d))));
+    out.highest = out.kind == SHAPE_DISK ? highest_of_ellipse(out)
+                                         : higher(higher(a, b, n), higher(c, d, n), n);
     return out;
 }
 
@@ -119,6 +133,7 @@ SHARED_FN SeenShape see_sphere(SeenShape out, FV radius) {
     FV across = lane_sqrt(max(fma(-high, high, fv(1.0f)), fv(0.0f)));
     FV beside = fma(high, cosine, across * lane_sqrt(min(sine2, fv(1.0f)))) + fv(1e-6f);
     out.most = lane_select(high >= cosine, fv(1.0f), min(beside, fv(1.0f)));
+    out.highest = add_along(out.center, out.normal, radius);
     return out;
 }
 
