@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/lighting/visibility.h"
 
+#include <algorithm>
+
+#include "kernels/shared/evaluate_modes.h"
+
 namespace kilolux {
 namespace {
 
@@ -9,11 +13,14 @@ KernelFeatures without_shadows(KernelFeatures features) {
     return features;
 }
 
+// AREA_LOBES of kernels/shadows/shadow_bits.h.
+uint lobes_of(const KernelFeatures& features) { return features.shading == SHADING_PBR ? 2 : 1; }
+
 }  // namespace
 
 Visibility::Visibility(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
                        const SurfaceFeatures& surfaces)
-    : has_slots_(features.sampled_shadows && features.area_lights),
+    : area_lobes_(features.sampled_shadows && features.area_lights ? lobes_of(features) : 0),
       cast_(gpu, tuning, features, surfaces) {
     if (!features.sampled_shadows) return;
     draw_.emplace(gpu, tuning, features);
@@ -33,7 +40,7 @@ SeenLights Visibility::enqueue(const ListedLights& lists, const GBuffer& gbuffer
     source_.reset();
     seen_ = {};  // arrays that grow must not be held twice
     const LitPixels lit = lists.at(gbuffer);
-    const uint slots = has_slots_ ? area_slots(shadows.rays) : 1;
+    const uint slots = std::max(area_lobes_ * area_slots(shadows.rays), 1u);
     seen_.words = cast_.reserve(lists.lights, lists.clusters, timer, slots);
     if (draw_) {
         seen_.samples = {unshadowed_->enqueue(lit, timer).planes, shadows.rays, shadows.seed};

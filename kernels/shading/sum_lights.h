@@ -156,10 +156,11 @@ static inline bool is_area(LightSet set, uint light) {
     return has_size(shape_of_light(set.extras, light));
 }
 
-// Hidden rays to a light with a size that picks `pairs`.
-static inline HiddenRays hidden_rays(LightSet set, uint entry, uint light, FV pairs) {
+// Hidden rays of a lobe of a light with a size that picks `pairs`.
+static inline HiddenRays hidden_rays(LightSet set, uint entry, uint light, uint lobe, FV pairs) {
+    uint first = lobe * area_slots(set.pick.rays);
 #if SHADOWS == SHADOWS_BITS
-    return count_hidden(set.shadows, place_of_entry(set, entry), pairs);
+    return count_hidden(set.shadows, place_of_entry(set, entry) + first, pairs);
 #else
     HiddenRays out = {fv(0.0f), fv(0.0f)};
     ShadowView view = set.shadows.scene.view;
@@ -169,7 +170,7 @@ static inline HiddenRays hidden_rays(LightSet set, uint entry, uint light, FV pa
                    shape_of_light(set.extras, light), light_key(set.pick.tile, light));
     MASK mine = set.shadows.wanted;
     for (uint slot = 0; lane_any(mine & casts_slot(pairs, slot)); ++slot) {
-        target.area.slot = slot;
+        target.area = at_slot(target.area, first + slot, set.pick.rays);
         set.shadows.wanted = mine & casts_slot(pairs, slot);
         out = add_hidden_ray(out, slot, set.shadows.wanted & ~sees(set.shadows, target));
     }
@@ -180,15 +181,19 @@ static inline HiddenRays hidden_rays(LightSet set, uint entry, uint light, FV pa
 // sampled_sum() of a light with a size.
 static inline LightSum sampled_area(LightSet set, uint entry, uint light, LightSum one,
                                     LightSum sum) {
-    FV alone = light_alone(set.pick, one);
-    FV y = mean_pairs(set.pick, alone);
-    FV pairs = picked_pairs(set.pick, alone, light);
-    HiddenRays hidden = hidden_rays(set, entry, light, pairs);
-    MASK any = lane_mask(hidden.first + hidden.second > fv(0.0f));
-    if (!lane_any(any)) return sum;
-    *set.variance += lane_select(any, area_variance(alone, y, pairs, hidden), fv(0.0f));
-    FV weight = lane_select(any, area_weight(y, pairs, hidden), fv(0.0f));
-    return add_weighted(sum, weight, one);
+    for (uint lobe = 0; lobe < AREA_LOBES; ++lobe) {
+        LightSum part = lobe_part(one, lobe);
+        FV alone = light_alone(set.pick, part);
+        FV y = mean_pairs(set.pick, alone);
+        FV pairs = picked_pairs(set.pick, alone, light, lobe);
+        HiddenRays hidden = hidden_rays(set, entry, light, lobe, pairs);
+        MASK any = lane_mask(hidden.first + hidden.second > fv(0.0f));
+        if (!lane_any(any)) continue;
+        *set.variance += lane_select(any, area_variance(alone, y, pairs, hidden), fv(0.0f));
+        FV weight = lane_select(any, area_weight(y, pairs, hidden), fv(0.0f));
+        sum = add_weighted(sum, weight, part);
+    }
+    return sum;
 }
 
 #if SHADOWS == SHADOWS_BITS

@@ -64,6 +64,24 @@ static inline uint slots_before(CastLights from, uint j) {
                : from.directional_count + (j - from.directional_count) * light_slots(from.rays);
 }
 
+// The first slot of the lobe after that of a slot: pixels use the first ones of a lobe.
+static inline uint next_lobe(CastLights from, uint slot) {
+#if AREA_SHADOWS
+    uint slots = area_slots(from.rays);
+    return (slot / slots + 1u) * slots;
+#else
+    return slot + 1u;
+#endif
+}
+
+// The light as the target of a slot's rays.
+static inline ShadowLight light_at_slot(CastLights from, ShadowLight light, uint slot) {
+#if AREA_SHADOWS
+    if (light.is_area) light.area = at_slot(light.area, slot, from.rays);
+#endif
+    return light;
+}
+
 // Whether any bit of some words is set.
 static inline bool any_word(global const uint* words, uint count) {
     uint bits = 0u;

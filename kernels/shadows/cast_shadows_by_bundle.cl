@@ -17,19 +17,20 @@ static inline void put_seen(ShadowBits bits, uint j, MASK mine, MASK seen, globa
 #endif
 }
 
-// The bits of all slots of one light at the pixels `mine`.
-static inline void cast_slots(ShadowRays rays, ShadowLight light, uint slots, uint first,
-                              ShadowBits bits, global uint* words) {
+// The bits of all slots of one light at the pixels rays.wanted. first: of the slots' words.
+static inline void cast_slots(ShadowRays rays, CastLights from, ShadowLight light, uint slots,
+                              uint first, ShadowBits bits, global uint* words) {
     MASK mine = rays.wanted;
-    for (uint slot = 0; slot < slots; ++slot) {
+    for (uint slot = 0; slot < slots;) {
 #if PICKED_ONLY
         rays.wanted = mine & sees_light(bits, first + slot);  // the bits are those of picked lights
-        if (!lane_any(rays.wanted)) return;
+        if (!lane_any(rays.wanted)) {
+            slot = next_lobe(from, slot);
+            continue;
+        }
 #endif
-#if AREA_SHADOWS
-        light.area.slot = slot;
-#endif
-        put_seen(bits, first + slot, mine, sees(rays, light), words);
+        put_seen(bits, first + slot, mine, sees(rays, light_at_slot(from, light, slot)), words);
+        ++slot;
     }
 }
 
@@ -60,7 +61,7 @@ kernel void cast_shadows(
         ShadowBits bits = bits_of_cluster(words + word_offsets[at.tile], clusters + i, place);
         for (uint j = 0; j < count_of_cluster(from, clusters + i); ++j) {
             ShadowLight light = light_of_cluster(from, shadow, clusters + i, j, key);
-            cast_slots(walks, light, slots_of(from, j), slots_before(from, j), bits, words);
+            cast_slots(walks, from, light, slots_of(from, j), slots_before(from, j), bits, words);
         }
     }
 #if COUNT_SHADOWS

@@ -358,14 +358,17 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cast_shadows(
              j += SPLIT) {
             ShadowLight light = light_of_cluster(from, shadow, clusters + i, j, key);
             global uint* slot_words = out + slots_before(from, j) * count;
-            for (uint slot = 0; slot < slots_of(from, j); ++slot) {
+            for (uint slot = 0; slot < slots_of(from, j);) {
 #if PICKED_ONLY
-                if (!any_word(slot_words + slot * count, count)) break;  // the same for all items
+                if (!any_word(slot_words + slot * count, count)) {  // the same for all items
+                    slot = next_lobe(from, slot);
+                    continue;
+                }
+                barrier(CLK_GLOBAL_MEM_FENCE);  // all have read them
 #endif
-#if AREA_SHADOWS
-                light.area.slot = slot;
-#endif
-                cast_light(scene, light, first, last, &walk, &points, slot_words + slot * count);
+                cast_light(scene, light_at_slot(from, light, slot), first, last, &walk, &points,
+                           slot_words + slot * count);
+                ++slot;
             }
         }
     }

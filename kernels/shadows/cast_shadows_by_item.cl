@@ -69,13 +69,17 @@ static inline bool cast_light(ShadowScene scene, ShadowLight light, ClusterBits 
     ulong tests_before = counted_tests(points);
     uint rays = 0;
     LaneBox box = no_box();
+    bool is_first = false;
 #if AREA_SHADOWS
+    // The first slot's shaft is that of all pixels to the whole light.
     LaneBox ends = no_box();
+    is_first = light.is_area && light.area.slot == 0u;
 #endif
     MASK any = (MASK)(0);
     for (uint row = first_row; row < end_row; ++row) {
-        MASK lit = face_light(scene.view, points, row, light, wanted_lanes(bits, row));
-        box = grown_box(box, lit, load_points(points, row));
+        MASK wanted = wanted_lanes(bits, row);
+        MASK lit = face_light(scene.view, points, row, light, wanted);
+        box = grown_box(box, is_first ? wanted : lit, load_points(points, row));
 #if AREA_SHADOWS
         if (light.is_area) ends = grown_box(ends, lit, load_edge_points(points, row));
 #endif
@@ -83,7 +87,7 @@ static inline bool cast_light(ShadowScene scene, ShadowLight light, ClusterBits 
         rays += lane_count(lit);
     }
 #if AREA_SHADOWS
-    if (light.is_area && light.area.slot != 0u) {
+    if (light.is_area && !is_first) {
         light.area.low = box_low(ends);
         light.area.high = box_high(ends);
     }
@@ -102,22 +106,28 @@ static inline bool cast_light(ShadowScene scene, ShadowLight light, ClusterBits 
 }
 
 // One light's bits, of all slots.
-static inline void cast_slots(ShadowScene scene, ShadowLight light, uint slots, ClusterBits bits,
-                              ShadowPoints* points) {
+static inline void cast_slots(ShadowScene scene, CastLights from, ShadowLight light, uint slots,
+                              ClusterBits bits, ShadowPoints* points) {
 #if !PICKED_ONLY
     cast_light(scene, light, bits, points);
 #else
-    bool met = true;
+    global uint* words = bits.words;
     uint count = shadow_words(bits.first, bits.end);
-    for (uint slot = 0; slot < slots && any_word(bits.words, count); ++slot, bits.words += count) {
-        if (!met) {  // the shaft to the whole light is empty
-            for (uint word = 0; word < count; ++word) bits.words[word] = 0u;
+    bool met = true;
+    for (uint slot = 0; slot < slots;) {
+        bits.words = words + slot * count;
+        bool begins = slot == 0u || next_lobe(from, slot - 1u) == slot;
+        if (begins) met = true;
+        if (!any_word(bits.words, count)) {
+            slot = next_lobe(from, slot);
             continue;
         }
-#if AREA_SHADOWS
-        light.area.slot = slot;
-#endif
-        met = cast_light(scene, light, bits, points) || slot != 0u;
+        if (met) {
+            met = cast_light(scene, light_at_slot(from, light, slot), bits, points) || !begins;
+        } else {  // the shaft from these pixels to the whole light is empty
+            for (uint word = 0; word < count; ++word) bits.words[word] = 0u;
+        }
+        ++slot;
     }
 #endif
 }
@@ -140,7 +150,7 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void cast_shadows(
         bits.end = bits.first + clusters[i].pixel_count;
         for (uint j = 0; j < count_of_cluster(from, clusters + i); ++j) {
             ShadowLight light = light_of_cluster(from, shadow, clusters + i, j, key);
-            cast_slots(scene, light, slots_of(from, j), bits, &points);
+            cast_slots(scene, from, light, slots_of(from, j), bits, &points);
             bits.words += slots_of(from, j) * shadow_words(bits.first, bits.end);
         }
         bits.first = bits.end;

@@ -10,11 +10,12 @@
 // in a fine tile, so that its pixels pick the same lights and one walk casts their rays: errors of
 // neighbours go together, each pixel's mean is right all the same.
 //
-// A light with a size is picked with y = n |f| / (2 |U|) pairs of rays on average: floor(y + r)
-// pairs, r the random number. Each ray goes to a point of the light whose density is in proportion
-// to its diffuse light, so the share of hidden rays estimates the hidden share of f without bias,
-// and exactly where all or none of the light is hidden. What is glossy has its share, too. With the
-// shares a and b of the first and the second rays of the pairs and q = min(1, y), (a + b) / (2 q) of
+// The lobes of a light with a size, diffuse and glossy, are picked as if they were two lights, each
+// with y = n |f| / (2 |U|) pairs of rays on average: floor(y + r) pairs, r the random number. Each
+// ray goes to a point of the light whose density is in proportion to what the lobe reflects, so the
+// share of hidden rays estimates the hidden share of f without bias, and exactly where all or none
+// of the light is hidden. The glossy lobe is that of the base; sheen and coat share its rays. With
+// the shares a and b of the first and the second rays of the pairs and q = min(1, y), (a + b) / (2 q) of
 // f is taken away, whose variance ((a + b)^2 / (4 q^2) - a b / q) f^2 estimates without bias, since
 // a and b are independent.
 #ifndef KILOLUX_DEVICE_SHADOW_PICK_H
@@ -74,15 +75,24 @@ static inline MASK picks_light(ShadowPick pick, FV alone, uint light) {
     return lane_mask(max(pick.whole, fv(1e-30f)) * random < alone * pick.rays);
 }
 
+// The part of a light's sum of one of its lobes.
+static inline LightSum lobe_part(LightSum one, uint lobe) {
+#if AREA_LOBES > 1u
+    if (lobe == 0u) one.specular = zero3();
+    if (lobe != 0u) one.diffuse = zero3();
+#endif
+    return one;
+}
+
 // Pairs of rays to a light with a size on average, y, and those that are picked.
 static inline FV mean_pairs(ShadowPick pick, FV alone) {
-    float most = (float)(light_slots(pick.rays) / 2u);
+    float most = (float)(area_slots(pick.rays) / 2u);
     return min(alone * pick.rays * 0.5f / max(pick.whole, fv(1e-30f)), fv(most));
 }
 
-static inline FV picked_pairs(ShadowPick pick, FV alone, uint light) {
-    float random = random_of(light_key(pick.tile, light));
-    float most = (float)(light_slots(pick.rays) / 2u);
+static inline FV picked_pairs(ShadowPick pick, FV alone, uint light, uint lobe) {
+    float random = random_of(lobe_key(light_key(pick.tile, light), lobe));
+    float most = (float)(area_slots(pick.rays) / 2u);
     return min(floor(mean_pairs(pick, alone) + random), fv(most));
 }
 

@@ -38,6 +38,9 @@ typedef struct ShadowPoints {
     float px[SHADOW_POINTS], py[SHADOW_POINTS], pz[SHADOW_POINTS];  // AreaOrigins
     float qx[SHADOW_POINTS], qy[SHADOW_POINTS], qz[SHADOW_POINTS];
     float key[SHADOW_POINTS];  // in the bits of floats
+#if AREA_LOBES > 1u
+    float gloss[6][SHADOW_POINTS];
+#endif
 #endif
 #if TINTED_SHADOWS
     TintSums tints;  // of row 0
@@ -82,6 +85,14 @@ static inline void store_area_origins(ShadowPoints* to, uint row, AreaOrigins fr
     lane_store(from.normal.y, to->qy + at);
     lane_store(from.normal.z, to->qz + at);
     lane_store(lane_from_bits(from.key), to->key + at);
+#if AREA_LOBES > 1u
+    lane_store(from.gloss_x.x, to->gloss[0] + at);
+    lane_store(from.gloss_x.y, to->gloss[1] + at);
+    lane_store(from.gloss_x.z, to->gloss[2] + at);
+    lane_store(from.gloss_y.x, to->gloss[3] + at);
+    lane_store(from.gloss_y.y, to->gloss[4] + at);
+    lane_store(from.gloss_y.z, to->gloss[5] + at);
+#endif
 }
 
 static inline AreaOrigins load_area_origins(const ShadowPoints* from, uint row) {
@@ -91,6 +102,12 @@ static inline AreaOrigins load_area_origins(const ShadowPoints* from, uint row) 
         fv3(lane_load(from->px + at), lane_load(from->py + at), lane_load(from->pz + at));
     out.normal = fv3(lane_load(from->qx + at), lane_load(from->qy + at), lane_load(from->qz + at));
     out.key = lane_bits(lane_load(from->key + at));
+#if AREA_LOBES > 1u
+    out.gloss_x = fv3(lane_load(from->gloss[0] + at), lane_load(from->gloss[1] + at),
+                      lane_load(from->gloss[2] + at));
+    out.gloss_y = fv3(lane_load(from->gloss[3] + at), lane_load(from->gloss[4] + at),
+                      lane_load(from->gloss[5] + at));
+#endif
     return out;
 }
 #endif
@@ -98,9 +115,9 @@ static inline AreaOrigins load_area_origins(const ShadowPoints* from, uint row) 
 // What rays to lights with a size need of a row's pixels.
 static inline void load_area_pixels(ShadowPoints* to, uint row, GBuffer g, Pixels pixels) {
 #if AREA_SHADOWS
-    LitItem item = lit_item(g, pixels);
-    AreaOrigins from = {load_position(g, pixels, item.z), load_normal(g, pixels),
-                        pixel_key(pixels)};
+    Surface s = load_surface(g, pixels, lit_item(g, pixels).z);
+    AreaOrigins from =
+        area_origins(make_shading_point(s, g.view.orthographic != 0u), pixels);
     store_area_origins(to, row, from);
 #endif
 }

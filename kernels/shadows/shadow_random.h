@@ -16,6 +16,11 @@ static inline uint tile_key(View view, uint seed, uint x, uint y) {
 // Of a light in a tile.
 static inline uint light_key(uint tile, uint light) { return hash_of(light ^ tile); }
 
+// Of the rays of one of its lobes.
+static inline uint lobe_key(uint light, uint lobe) {
+    return lobe == 0u ? light : hash_of(light ^ 0x9e3779b9u);
+}
+
 static inline UV lane_hash(UV x) {
     x = (x ^ x >> 16) * 0x7feb352du;
     x = (x ^ x >> 15) * 0x846ca68bu;
@@ -35,7 +40,7 @@ typedef struct LaneFractions {
     UV u, v, w;
 } LaneFractions;
 
-// The numbers of attempt `attempt` of the ray of slot `slot` to a light. Slots 0, 2, ... and
+// The numbers of attempt `attempt` of the ray of a lobe's slot `slot` to a light. Slots 0, 2, ... and
 // 1, 3, ... are two independent sets. The first attempts of a set are a lattice that a random
 // shift moves: its points spread evenly, and each alone is uniform (Roberts 2018, "The Unreasonable
 // Effectiveness of Quasirandom Sequences": powers of the root of x^4 = x + 1). Later attempts are

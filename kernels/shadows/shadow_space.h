@@ -83,14 +83,13 @@ static inline ShadowLight shadow_point_light(ShadowView view, ShadeLight light) 
 }
 
 #if AREA_SHADOWS
-// The light with the shape that stands beside it. key: of the tile.
+// The light with the shape that stands beside it. key: light_key() of the tile.
 static inline ShadowLight with_shape(ShadowLight light, ShadowView view, float4 position,
                                      LightShape shape, uint key) {
     light.is_area = has_size(shape);
     light.area.shape = shape;
     light.area.center = position.xyz;
-    light.area.key = key;
-    light.area.slot = 0u;
+    light.area.of_light = key;
     if (!light.is_area) return light;
     box_of_area(view, light.at, &light.area);
     light.reach += length(light.area.high - light.area.low);

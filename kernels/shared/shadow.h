@@ -23,7 +23,7 @@
 // tolerance of kernels/shadows/shadow_triangle.h beyond a triangle's edges.
 #define SHADOW_PAD (1.0f / (1 << 17))
 
-// Most rays of a pixel to one light with a size.
+// Most rays of a pixel for one lobe of one light with a size.
 #define AREA_SLOTS_MOST 1024u
 
 // Ends of the box of a missing child, which no shaft meets.
@@ -76,8 +76,8 @@ SHARED_STRUCT(ShadowView) {
 };
 SHARED_ASSERT(shadow_view_size, sizeof(ShadowView) == 64);
 
-// Rays, and places for their results, that sampled shadows have at most for a light with a size
-// where each pixel casts `rays` on average: pairs. Shadows that are not sampled have 0 rays.
+// Rays, and places for their results, that sampled shadows have at most for each lobe of a light
+// with a size where each pixel casts `rays` on average: pairs. Shadows that are not sampled have 0 rays.
 SHARED_FN uint area_slots(float rays) {
     if (rays <= 0.0f) return 1u;
     uint pairs = uint_of(min(fma(rays, 0.5f, 0.999f), float_of(AREA_SLOTS_MOST / 2u)));

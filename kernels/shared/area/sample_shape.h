@@ -137,26 +137,24 @@ SHARED_FN SeenShape see_sphere(SeenShape out, FV radius) {
     return out;
 }
 
-// `center`: of the shape's light, from the surface point; `normal`: of the surface, unit. All in
-// the axes of the shape.
-SHARED_FN SeenShape see_shape(LightShape shape, FV3 center, FV3 normal) {
+// half_x, half_y: of the light of kind `kind`, as in LightShape. `center`: from the surface point;
+// `normal`: of the surface, unit. All in the same axes.
+SHARED_FN SeenShape see_shape(uint kind, FV3 center, FV3 half_x, FV3 half_y, FV3 normal) {
     SeenShape out;
-    FV3 x = lanes3(shape.half_x), y = lanes3(shape.half_y);
     out.center = center;
     out.normal = normal;
-    out.kind = shape_kind(shape);
-    out.half_x = x;
-    out.half_y = y;
-    if (out.kind == SHAPE_SPHERE) {
-        return see_sphere(out, lane_sqrt(dot3(x, x)));
+    out.kind = kind;
+    out.half_x = half_x;
+    out.half_y = half_y;
+    if (kind == SHAPE_SPHERE) return see_sphere(out, lane_sqrt(dot3(half_x, half_x)));
+    if (kind == SHAPE_TRIANGLE) {
+        FV3 a = add_along(center, add3(half_x, half_y), fv(-0.333333333f));
+        FV3 c = add3(a, half_y);
+        return see_polygon(out, a, add3(a, half_x), c, c);
     }
-    if (out.kind == SHAPE_TRIANGLE) {
-        FV3 a = add_along(center, add3(x, y), fv(-0.333333333f));
-        FV3 c = add3(a, y);
-        return see_polygon(out, a, add3(a, x), c, c);
-    }
-    FV3 low = sub3(center, y), high = add3(center, y);
-    return see_polygon(out, sub3(low, x), add3(low, x), add3(high, x), sub3(high, x));
+    FV3 low = sub3(center, half_y), high = add3(center, half_y);
+    return see_polygon(out, sub3(low, half_x), add3(low, half_x), add3(high, half_x),
+                       sub3(high, half_x));
 }
 
 // The unit direction of (u, v) in a fan.

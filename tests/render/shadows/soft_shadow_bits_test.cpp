@@ -31,7 +31,7 @@ Scene grid_with_area_lights() {
 
 RenderSettings bits_settings(int width, int height) {
     RenderSettings settings = soft_settings(width, height, 6);
-    settings.shading = Shading::automatic;
+    settings.shading = Shading::pbr;
     settings.lights.count = 20;
     return settings;
 }
