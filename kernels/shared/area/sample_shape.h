@@ -218,11 +218,13 @@ SHARED_FN FV3 plane_point(IN(SeenShape) of, FV3 direction) {
     return pick3(is_near, scale3(direction, max(distance, fv(0.0f))), farthest);
 }
 
-// 1 inside the ellipse, else 0.
+// 1 inside the ellipse, else 0. Its half axes need not be perpendicular.
 SHARED_FN FV in_ellipse(IN(SeenShape) of, FV3 to_light) {
     FV3 at = sub3(to_light, AT(of).center);
-    FV x = dot3(at, AT(of).half_x) / max(dot3(AT(of).half_x, AT(of).half_x), fv(1e-36f));
-    FV y = dot3(at, AT(of).half_y) / max(dot3(AT(of).half_y, AT(of).half_y), fv(1e-36f));
+    FV3 normal = cross3(AT(of).half_x, AT(of).half_y);
+    FV inverse = fv(1.0f) / max(dot3(normal, normal), fv(1e-36f));
+    FV x = dot3(cross3(at, AT(of).half_y), normal) * inverse;
+    FV y = dot3(cross3(AT(of).half_x, at), normal) * inverse;
     return lane_select(fma(x, x, y * y) <= fv(1.0f), fv(1.0f), fv(0.0f));
 }
 
