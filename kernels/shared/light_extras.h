@@ -8,9 +8,6 @@
 #include "kernels/shared/area/area_shape.h"
 #include "kernels/shared/light_profile.h"
 
-#ifndef HAS_LIGHT_PROFILES
-#define HAS_LIGHT_PROFILES 0
-#endif
 #ifndef HAS_AREA_LIGHTS
 #define HAS_AREA_LIGHTS 0
 #endif

@@ -12,6 +12,10 @@
 #include "kernels/shared/angle.h"
 #include "kernels/shared/types.h"
 
+#ifndef HAS_LIGHT_PROFILES
+#define HAS_LIGHT_PROFILES 0
+#endif
+
 #define PROFILE_HEAD 4u
 #define NO_WEB (-1.0f)
 // A web that ends at a vertical angle extends so far beyond it [rad]: five roundings of the angle.
@@ -83,6 +87,8 @@ float profile_head(LightProfiles from, uint i);
 float profile_value(LightProfiles from, uint i);
 #endif
 
+// A GLSL shader of a scene without webs defines none of what reads them.
+#if HAS_PROFILE_POINTER || HAS_LIGHT_PROFILES
 // Bilinear between the table's values around (row, column).
 SHARED_FN FV profile_between(LightProfiles from, uint values, FV row, FV column, float last_row,
                              float turn) {
@@ -132,6 +138,7 @@ SHARED_FN FV profile_share(LightProfiles from, uint light, FV3 to_light) {
     float end = last_row / per_radian + PROFILE_EDGE;
     return lane_select(angle > fv(end), fv(0.0f), min(max(share, fv(0.0f)), fv(1.0f)));
 }
+#endif
 
 #if defined(__cplusplus)
 }  // namespace kilolux

@@ -174,11 +174,15 @@ SHARED_FN ShadingPoint with_coat(ShadingPoint p, Surface s) {
 SHARED_FN ShadingPoint with_area_lobes(ShadingPoint p) {
     p.frame = make_area_frame(p.normal, p.to_eye);
 #if SHADING == SHADING_PBR
-    p.area = make_area_lobe(p.lobe, p.frame);
+#if HAS_ANISOTROPY
+    p.area = stretched_area_lobe(p.lobe, p.frame);
+#else
+    p.area = make_area_lobe(p.lobe, p.lobe.alpha);
+#endif
 #endif
 #if HAS_COAT
     p.coat_frame = make_area_frame(p.coat_normal, p.to_eye);
-    p.coat_area = make_area_lobe(p.coat, p.coat_frame);
+    p.coat_area = make_area_lobe(p.coat, p.coat.alpha);
 #endif
     return p;
 }

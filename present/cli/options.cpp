@@ -130,8 +130,8 @@ void visit_more_lights(const SettingVisitor& f, SharedOptions& o) {
                o.environment_lights, {1, 65536})
         .value(SettingKind::number,
                {"--light-size", "R", "",
-                "Radius of generated points, and of the file's that give none: spheres of the "
-                "same intensity, as soft as they are large",
+                "Radius of generated points, and of the file's points that give none; they become "
+                "spheres of the same intensity",
                 kPicture, "m"},
                take_size, [&s] { return text_of(s.lights.size); })
         .value({"--light-box", "X0,Y0,Z0,X1,Y1,Z1", "the scene's", "Where they are", kPicture, "m"},

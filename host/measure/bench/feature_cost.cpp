@@ -58,9 +58,10 @@ std::vector<FeatureCost> left_out_features(const ScenePlan& plan) {
         FeatureCost& cost = costs.emplace_back();
         cost.feature = name;
         cost.bytes_per_pixel = added_bytes_per_pixel(plan, name);
-        cost.why = is_forceable(name)       ? "not measured: kilolux info --costs does"
-                   : name == "point-lights" ? "without lights the list stages run on empty lists"
-                                            : "compiled into shaders of materials that use it only";
+        cost.why = is_forceable(name) ? "not measured: kilolux info --costs does"
+                   : name == "point-lights"
+                       ? "without lights the list stages run on empty lists"
+                       : "compiled in where something of the scene uses it only";
     }
     return costs;
 }

@@ -41,7 +41,8 @@ struct LightKind {
     bool has_cone = false;
     bool has_skew = false;
     bool has_radius = false;
-    bool is_summed = false;  // a light tree may replace many by one: a point, equal everywhere
+    bool is_summed =
+        false;  // a light tree may replace many by one: a point, equal in all directions
     bool SceneFeatures::*feature = &SceneFeatures::area_lights;  // of scenes that have one
 };
 

@@ -30,7 +30,7 @@ SHARED_FN AreaFrame make_area_frame(FV3 normal, FV3 to_eye) {
     AreaFrame frame;
     frame.z = normal;
     // Twice the cross product with the normal: short products n x v are not quite perpendicular.
-    frame.x = cross3(scale3(across, lane_rsqrt(dot3(across, across))), normal);
+    frame.x = cross3(scale3(across, lane_rsqrt(max(dot3(across, across), fv(1e-30f)))), normal);
     frame.y = cross3(normal, frame.x);
     frame.eye_x = dot3(frame.x, to_eye);
     frame.eye_z = dot3(normal, to_eye);
@@ -53,32 +53,15 @@ SHARED_PLAIN_STRUCT(AreaLobe) {
 #endif
 };
 
-#if HAS_ANISOTROPY
-// A lobe of the slopes at, ab: x and y of the transformed light of the round lobe of
-// alpha = sqrt(at ab), times alpha / at along the tangent and alpha / ab across it. Exact for
-// narrow lobes seen head on. The identity without strength.
-SHARED_FN AreaLobe stretched_area_lobe(AreaLobe area, GgxLobe lobe, AreaFrame frame) {
-    FV across = lane_sqrt(lobe.alpha2);
-    FV shrink = across / lobe.alpha, grow = lobe.alpha / across;
-    FV x = dot3(frame.x, lobe.tangent), y = dot3(frame.y, lobe.tangent);
-    area.tangent_x = x;
-    area.tangent_y = y;
-    FV less = shrink - grow;
-    area.stretch_xx = fma(x * x, less, grow);
-    area.stretch_xy = x * y * less;
-    area.stretch_yy = fma(y * y, less, grow);
-    return area;
-}
-#endif
-
-SHARED_FN AreaLobe make_area_lobe(GgxLobe lobe, AreaFrame frame) {
+// `slope`: of the lobe in the plane of normal and eye, alpha where it is round.
+SHARED_FN AreaLobe make_area_lobe(GgxLobe lobe, FV slope) {
     FV one = fv(1.0f), n_dot_v = min(lobe.n_dot_v, one);
-    FV alpha = min(lobe.alpha, one), roughness = lane_sqrt(alpha);
+    FV alpha = min(slope, one), roughness = lane_sqrt(alpha);
     FV wide2 = fv(GGX_SPREAD2) * (alpha * alpha);
     FV spread2 = fma(n_dot_v, n_dot_v, wide2);
     FV inverse = lane_rsqrt(spread2);
     FV spread = spread2 * inverse, x = n_dot_v * inverse, rest = wide2 * (inverse * inverse);
-    FV narrow = fv(0.5f) / alpha;
+    FV narrow = fv(0.5f) / lobe.alpha;
     FV sine = lane_sqrt(max(fma(-n_dot_v, n_dot_v, one), fv(0.0f)));
     AreaLobe area;
     area.along = spread2 * narrow * fma(rest, fit_along(x, roughness), one);
@@ -89,10 +72,31 @@ SHARED_FN AreaLobe make_area_lobe(GgxLobe lobe, AreaFrame frame) {
     area.rise = schlick_rise(one - cosine);
     area.inverse_density = fv(0.5f) / (area.albedo * area.along * area.across);
 #if HAS_ANISOTROPY
-    area = stretched_area_lobe(area, lobe, frame);
+    area.tangent_x = area.tangent_y = area.stretch_xy = fv(0.0f);
+    area.stretch_xx = area.stretch_yy = one;
 #endif
     return area;
 }
+
+#if HAS_ANISOTROPY
+// A lobe of the slopes at, ab along and across a tangent: the transformed light of a round lobe of
+// alpha = sqrt(at ab), times alpha / at along the tangent and alpha / ab across it. Exact for
+// narrow lobes. Elsewhere the transform is that of the slope in the plane of the eye.
+SHARED_FN AreaLobe stretched_area_lobe(GgxLobe lobe, AreaFrame frame) {
+    FV across = lane_sqrt(lobe.alpha2);
+    FV shrink = across / lobe.alpha, grow = lobe.alpha / across;
+    FV x = dot3(frame.x, lobe.tangent), y = dot3(frame.y, lobe.tangent);
+    FV slope_x = lobe.alpha * grow * x, slope_y = across * y;
+    AreaLobe area = make_area_lobe(lobe, lane_sqrt(fma(slope_x, slope_x, slope_y * slope_y)));
+    FV less = shrink - grow;
+    area.tangent_x = x;
+    area.tangent_y = y;
+    area.stretch_xx = fma(x * x, less, grow);
+    area.stretch_xy = x * y * less;
+    area.stretch_yy = fma(y * y, less, grow);
+    return area;
+}
+#endif
 
 // A vector of the frame in the space where the lobe is a cosine.
 SHARED_FN FV3 transformed(AreaLobe area, FV3 v) {

@@ -3,7 +3,12 @@
 // part; SHADING_BLINN_PHONG has none. Switch: HAS_AREA_LIGHTS of surface.h.
 //
 // Diffuse light and sheen depend on the light's direction beyond the cosine: by Schlick's
-// reflectance and by the sheen's lobe. Both are taken in the direction of a typical point.
+// reflectance and by the sheen's lobe. Both are taken in the direction of a typical point. Mean
+// errors at widths of 0.05, 0.4 and 1.5 of the distance and n.v of at least 0.2: dielectrics of
+// roughness 1 0.02, 0.3 and 0.5 %, the same with sheen of roughness 0.5 0.1, 1.3 and 6 %, metal of
+// roughness 0.4 0.5, 3 and 6 %, and 2, 15 and 24 % with anisotropy 0.6
+// (tests/measure/area/area_lobes_test.cpp). Narrow lobes of strong anisotropy are rough
+// approximations.
 #ifndef KILOLUX_SHARED_AREA_AREA_LOBES_H
 #define KILOLUX_SHARED_AREA_AREA_LOBES_H
 #include "kernels/shared/area/ggx_area.h"

@@ -113,9 +113,10 @@ SHARED_FN FV3 point_of(FlatLight at, TypicalPoint point) {
 SHARED_FN FV3 typical_vector(SeenLight light, TypicalPoint point) {
     FlatLight at = with_half_sides(light);
     FV3 v = point_of(at, point);
-    // Where the horizon cuts the light, the mean height of the rest is about half of the largest.
+    // Where the horizon cuts the light, the mean height of the rest is about half of the largest;
+    // less where it cuts little, so that nothing jumps.
     FV reach = max(at.half_x.z, -at.half_x.z) + max(at.half_y.z, -at.half_y.z);
-    FV least = lane_select(at.center.z < reach, fv(0.5f) * (at.center.z + reach), fv(0.0f));
+    FV least = min(fv(0.5f) * (reach + at.center.z), fv(2.0f) * (reach - at.center.z));
     v.z = max(v.z, max(least, fv(0.0f)));
     return v;
 }
@@ -181,7 +182,7 @@ SHARED_FN LobeLight area_ggx(AreaFrame frame, GgxLobe lobe, AreaLobe area, SeenL
     LobeRatio ratio = lobe_ratio(frame, lobe, area, l, q2);
     FV covered = cosine * fv(0.318309886f);
     FV near2 = fma(fv(0.25f) * point.size2, inverse * inverse, q2);
-    FV weight = (fv(1.0f) - covered) * lane_divide(q2, near2);
+    FV weight = (fv(1.0f) - covered) * lane_divide(q2, max(near2, fv(1e-30f)));
     LobeLight sent;
     sent.light = fv(2.0f) * area.albedo * cosine * bounded_ratio(ratio.over, ratio.below, weight);
     sent.rise = fma(covered, area.rise - ratio.rise, ratio.rise);

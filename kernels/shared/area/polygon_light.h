@@ -5,19 +5,20 @@
 // linear map of a light is one of these lights too, so linearly transformed cosines use this text.
 //
 // A light above the horizon: Lambert's sum over its edges. Its terms cancel where the light is
-// small or narrow as seen from the point, so two other forms take over there: four samples of
-// Gauss's rule for small lights, and exact differences of the terms of opposite edges for narrow
-// ones. A light that the horizon cuts: each edge is cut, and the horizon adds one.
+// small or narrow as seen from the point. Small lights have four samples of Gauss's rule instead,
+// narrow ones the differences of the edges' weights from that of the centre. A light that the
+// horizon cuts: each edge is cut, and the horizon adds one.
 #ifndef KILOLUX_SHARED_AREA_POLYGON_LIGHT_H
 #define KILOLUX_SHARED_AREA_POLYGON_LIGHT_H
 #include "kernels/shared/types.h"
 
-// Above these squares of size / distance the sum over edges is used. Both forms have their largest
-// errors there: tests/measure/area/area_cosine_test.cpp prints them.
-#define SMALL_LIGHT 0.004f
-#define SMALL_CUT_LIGHT 0.001f
+// Below this square of size / distance samples are used. Both forms have their largest errors
+// there: tests/measure/area/area_cosine_test.cpp prints them.
+#define SMALL_LIGHT 0.003f
+// Below this square of size / distance distant_edge can be used.
+#define DISTANT_LIGHT 0.1f
 // Below this square of width / distance a light is narrow.
-#define NARROW_LIGHT 1e-3f
+#define NARROW_LIGHT 3e-3f
 // Squares of lengths below this one count as 0 [m^2].
 #define SMALLEST_SQUARE 1e-36f
 
@@ -25,7 +26,7 @@
 namespace kilolux {
 #endif
 
-// The edges of a light from its first to its fourth corner: offsets from its centre.
+// The corners of a light in the order of its outline: offsets from its centre.
 SHARED_PLAIN_STRUCT(Corners) { FV3 a, b, c, d; };
 
 // angle / sin(angle) for x = cos(angle) in [0, 1], within 5e-7.
@@ -60,7 +61,7 @@ SHARED_FN FV any_edge(FV3 p, FV3 q) {
     return edge_term(p, q, inverse_length(dot3(p, p)) * inverse_length(dot3(q, q)));
 }
 
-// z / r^4 at center + offset, times `scale`.
+// z / r^4 at a point, times `scale`.
 SHARED_FN FV sample_of(FV3 point, FV scale) {
     FV inverse = lane_divide(fv(1.0f), max(dot3(point, point), fv(SMALLEST_SQUARE)));
     return (point.z * inverse) * (scale * inverse);
@@ -87,35 +88,48 @@ SHARED_FN FV below_horizon(FV3 center, FV3 offset) {
     return lane_select(center.z + offset.z < 0.0f, fv(1.0f), fv(0.0f));
 }
 
-// Sums over the edges of the part above the horizon. near: Lambert's, twice; far: three samples in
-// each triangle between an edge and a common point.
-SHARED_PLAIN_STRUCT(EdgeSums) { FV near, far; };
+// (angle / sin(angle) - 1) / v for v = 1 - cos(angle) in [0, 0.5], within 2e-6.
+SHARED_FN FV angle_excess(FV v) {
+    FV s = fma(v, fv(0.0218729414f), fv(0.0202667844f));
+    s = fma(s, v, fv(0.0581143759f));
+    s = fma(s, v, fv(0.133270785f));
+    return fma(s, v, fv(0.333333969f));
+}
 
-// The part above the horizon of the edge from p to q, which meets the horizon in `cut`. `pivot`:
-// the common point.
-SHARED_FN EdgeSums cut_edge(FV3 center, FV3 p, FV3 q, FV3 cut, FV3 pivot) {
+// As any_edge from center + p to center + q, times |center|^2, and less the part that is 0 in the
+// sum over a closed outline: the difference of the edge's weight from that of the centre is exact.
+// For offsets up to half of the distance. center, p and q in units of |center|.
+SHARED_FN FV distant_edge(FV3 center, FV3 p, FV3 q) {
+    FV to_p = dot3(p, add3(add3(center, center), p));  // |center + p|^2 - 1
+    FV to_q = dot3(q, add3(add3(center, center), q));
+    FV beyond = fma(to_p, to_q, to_p + to_q);
+    FV3 edge = sub3(q, p), between = cross3(p, q);
+    FV3 across = add3(cross3(center, edge), between);
+    FV inverse2 = lane_divide(fv(1.0f), max(1.0f + beyond, fv(1e-3f)));
+    FV inverse = lane_sqrt(inverse2);
+    FV sine2 = min(dot3(across, across) * inverse2, fv(0.75f));
+    FV v = lane_divide(sine2, 1.0f + lane_sqrt(1.0f - sine2));
+    FV more = lane_divide(-beyond * inverse2, 1.0f + inverse);  // inverse - 1
+    more = fma(v * angle_excess(v), inverse, more);
+    return fma(more, across.z, between.z);
+}
+
+// The edge from p to q, offsets from the centre; `distant`: by distant_edge.
+SHARED_FN FV edge_of(FV3 center, FV3 p, FV3 q, bool distant) {
+    if (distant) return distant_edge(center, p, q);
+    return any_edge(add3(center, p), add3(center, q));
+}
+
+// The part of an edge above the horizon, which it meets in `cut`.
+SHARED_FN FV cut_edge(FV3 center, FV3 p, FV3 q, FV3 cut, bool distant) {
     FV p_below = below_horizon(center, p), q_below = below_horizon(center, q);
-    p = select3(p_below > 0.0f, cut, p);
-    q = select3(q_below > 0.0f, cut, q);
-    FV above = fma(-p_below, q_below, fv(1.0f));
-    FV3 first = add3(center, pivot);
-    FV3 to_p = scale3(sub3(p, pivot), fv(0.5f)), to_q = scale3(sub3(q, pivot), fv(0.5f));
-    FV third = dot3(center, cross3(to_p, to_q)) * (above * (4.0f / 3.0f));
-    EdgeSums sums;
-    sums.near = any_edge(add3(center, p), add3(center, q)) * above;
-    sums.far = sample_of(add3(first, add3(to_p, to_q)), third) +
-               (sample_of(add3(first, to_p), third) + sample_of(add3(first, to_q), third));
-    return sums;
+    FV edge =
+        edge_of(center, select3(p_below > 0.0f, cut, p), select3(q_below > 0.0f, cut, q), distant);
+    return edge * fma(-p_below, q_below, fv(1.0f));
 }
 
-SHARED_FN EdgeSums add_edges(EdgeSums a, EdgeSums b) {
-    a.near += b.near;
-    a.far += b.far;
-    return a;
-}
-
-// Of a light that the horizon cuts.
-SHARED_FN EdgeSums cut_polygon(FV3 center, Corners at) {
+// The part of the outline above the horizon, and the edge on the horizon.
+SHARED_FN FV cut_outline_sum(FV3 center, Corners at, bool distant) {
     FV a = below_horizon(center, at.a), b = below_horizon(center, at.b);
     FV c = below_horizon(center, at.c), d = below_horizon(center, at.d);
     FV3 ab = horizon_point(center.z, at.a, at.b), bc = horizon_point(center.z, at.b, at.c);
@@ -123,77 +137,111 @@ SHARED_FN EdgeSums cut_polygon(FV3 center, Corners at) {
     // A convex outline sets once and rises once.
     FV3 set = select3(b > a, ab, select3(c > b, bc, select3(d > c, cd, da)));
     FV3 rise = select3(b < a, ab, select3(c < b, bc, select3(d < c, cd, da)));
-    EdgeSums sums = add_edges(
-        add_edges(cut_edge(center, at.a, at.b, ab, set), cut_edge(center, at.b, at.c, bc, set)),
-        add_edges(cut_edge(center, at.c, at.d, cd, set), cut_edge(center, at.d, at.a, da, set)));
-    sums.near += any_edge(add3(center, set), add3(center, rise));
-    return sums;
+    return (cut_edge(center, at.a, at.b, ab, distant) + cut_edge(center, at.b, at.c, bc, distant)) +
+           (cut_edge(center, at.c, at.d, cd, distant) + cut_edge(center, at.d, at.a, da, distant)) +
+           edge_of(center, set, rise, distant);
 }
 
-// `whole`: the irradiance without a horizon, right where no corner is below. `square`: of the size.
-SHARED_FN FV above_horizon(FV whole, FV square, FV3 center, Corners at) {
-    FV low = min(min(at.a.z, at.b.z), min(at.c.z, at.d.z)) + center.z;
-    if (lane_any(low < 0.0f)) {
-        EdgeSums sums = cut_polygon(center, at);
-        MASK small = square < dot3(center, center) * SMALL_CUT_LIGHT;
-        FV cut = lane_select(small, sums.far, sums.near) * -0.5f;
-        FV high = max(max(at.a.z, at.b.z), max(at.c.z, at.d.z)) + center.z;
-        whole = lane_select(low < 0.0f, lane_select(high > 0.0f, cut, fv(0.0f)), whole);
+// Lambert's sum, times -2, over the corners of a light above the horizon.
+SHARED_FN FV edge_sum(FV3 center, Corners at) {
+    FV3 a = add3(center, at.a), b = add3(center, at.b), c = add3(center, at.c);
+    FV3 d = add3(center, at.d);
+    FV by_a = inverse_length(dot3(a, a)), by_b = inverse_length(dot3(b, b));
+    FV by_c = inverse_length(dot3(c, c)), by_d = inverse_length(dot3(d, d));
+    return (edge_term(a, b, by_a * by_b) + edge_term(b, c, by_b * by_c)) +
+           (edge_term(c, d, by_c * by_d) + edge_term(d, a, by_d * by_a));
+}
+
+SHARED_FN Corners scale_corners(Corners at, FV s) {
+    at.a = scale3(at.a, s);
+    at.b = scale3(at.b, s);
+    at.c = scale3(at.c, s);
+    at.d = scale3(at.d, s);
+    return at;
+}
+
+// Ways to integrate over a polygon.
+#define BY_SAMPLES 0.0f
+#define BY_EDGES 1.0f
+#define BY_CUT_EDGES 2.0f
+#define BY_DISTANT_EDGES 3.0f
+
+// square: of the size; area: half_x x half_y of a parallelogram, or as much of a triangle.
+SHARED_FN FV polygon_way(FV3 center, FV low, FV square, FV3 area) {
+    FV distance2 = dot3(center, center);
+    MASK distant = square < distance2 * DISTANT_LIGHT;
+    MASK narrow = dot3(area, area) < square * distance2 * NARROW_LIGHT;
+    FV cut = lane_select(distant, fv(BY_DISTANT_EDGES), fv(BY_CUT_EDGES));
+    FV whole = lane_select(distant, lane_select(narrow, cut, fv(BY_EDGES)), fv(BY_EDGES));
+    whole = lane_select(square < distance2 * SMALL_LIGHT, fv(BY_SAMPLES), whole);
+    return lane_select(low < 0.0f, cut, whole);
+}
+
+// Height of the lowest corner.
+SHARED_FN FV lowest(FV3 center, Corners at) {
+    return min(min(at.a.z, at.b.z), min(at.c.z, at.d.z)) + center.z;
+}
+
+// The parallelogram or, with c = d, triangle with these corners; `samples`: its result by samples.
+SHARED_FN FV polygon_cosine(FV3 center, Corners at, FV way, FV samples) {
+    FV cosine = samples;
+    if (lane_any(way == BY_EDGES))
+        cosine = lane_select(way == BY_EDGES, edge_sum(center, at) * -0.5f, cosine);
+    if (lane_any(way == BY_CUT_EDGES))
+        cosine =
+            lane_select(way == BY_CUT_EDGES, cut_outline_sum(center, at, false) * -0.5f, cosine);
+    if (lane_any(way == BY_DISTANT_EDGES)) {
+        FV inverse = inverse_length(dot3(center, center));
+        FV sum = cut_outline_sum(scale3(center, inverse), scale_corners(at, inverse), true);
+        cosine = lane_select(way == BY_DISTANT_EDGES, sum * -0.5f, cosine);
     }
-    return max(min(whole, fv(3.14159265f)), fv(0.0f));
-}
-
-// Lambert's sum, times -2, of the parallelogram or, with c = d, triangle with these corners.
-SHARED_FN FV edge_sum(FV3 a, FV3 b, FV3 c, FV3 d) {
-    FV at_a = inverse_length(dot3(a, a)), at_b = inverse_length(dot3(b, b));
-    FV at_c = inverse_length(dot3(c, c)), at_d = inverse_length(dot3(d, d));
-    return (edge_term(a, b, at_a * at_b) + edge_term(b, c, at_b * at_c)) +
-           (edge_term(c, d, at_c * at_d) + edge_term(d, a, at_d * at_a));
+    FV high = max(max(at.a.z, at.b.z), max(at.c.z, at.d.z)) + center.z;
+    cosine = lane_select(high > 0.0f, cosine, fv(0.0f));
+    return max(min(cosine, fv(3.14159265f)), fv(0.0f));
 }
 
 // Centre and half sides of a parallelogram.
 SHARED_FN FV parallelogram_cosine(FV3 center, FV3 half_x, FV3 half_y) {
-    FV3 sum = add3(half_x, half_y), difference = sub3(half_x, half_y);
-    FV square = dot3(half_x, half_x) + dot3(half_y, half_y);
-    MASK large = square > dot3(center, center) * SMALL_LIGHT;
-    FV whole =
-        four_samples(center, scale3(half_x, fv(0.577350269f)), scale3(half_y, fv(0.577350269f)),
-                     -dot3(center, cross3(half_x, half_y)));
-    if (lane_any(large)) {
-        FV edges = edge_sum(sub3(center, sum), add3(center, difference), add3(center, sum),
-                            sub3(center, difference));
-        whole = lane_select(large, edges * -0.5f, whole);
-    }
+    FV3 area = cross3(half_x, half_y);
     Corners at;
-    at.a = scale3(sum, fv(-1.0f));
-    at.b = difference;
-    at.c = sum;
-    at.d = scale3(difference, fv(-1.0f));
-    return above_horizon(whole, square, center, at);
+    at.c = add3(half_x, half_y);
+    at.b = sub3(half_x, half_y);
+    at.a = fv3(-at.c.x, -at.c.y, -at.c.z);
+    at.d = fv3(-at.b.x, -at.b.y, -at.b.z);
+    FV square = dot3(half_x, half_x) + dot3(half_y, half_y);
+    FV way = polygon_way(center, lowest(center, at), square, area);
+    FV samples = fv(0.0f);
+    if (lane_any(way == BY_SAMPLES))
+        samples = four_samples(center, scale3(half_x, fv(0.577350269f)),
+                               scale3(half_y, fv(0.577350269f)), -dot3(center, area));
+    return polygon_cosine(center, at, way, samples);
 }
 
-// Centroid and the edges from the first corner to the second and third of a triangle.
+// Two samples on each of two lines parallel to edge_y.
+SHARED_FN FV triangle_samples(FV3 corner, FV3 edge_x, FV3 edge_y, FV scale) {
+    FV3 left = add3(corner, scale3(edge_x, fv(0.155051026f)));
+    FV3 right = add3(corner, scale3(edge_x, fv(0.644948974f)));
+    FV of_left = scale * 0.159020691f, of_right = scale * 0.0909793091f;
+    return (sample_of(add3(left, scale3(edge_y, fv(0.178558726f))), of_left) +
+            sample_of(add3(left, scale3(edge_y, fv(0.666390246f))), of_left)) +
+           (sample_of(add3(right, scale3(edge_y, fv(0.0750311102f))), of_right) +
+            sample_of(add3(right, scale3(edge_y, fv(0.280019916f))), of_right));
+}
+
+// Centroid of a triangle, and its edges from the first corner to the second and third.
 SHARED_FN FV triangle_cosine(FV3 center, FV3 edge_x, FV3 edge_y) {
+    FV3 area = cross3(edge_x, edge_y);
     Corners at;
     at.a = scale3(add3(edge_x, edge_y), fv(-1.0f / 3.0f));
     at.b = add3(at.a, edge_x);
     at.c = add3(at.a, edge_y);
     at.d = at.c;
     FV square = dot3(edge_x, edge_x) + dot3(edge_y, edge_y);
-    MASK large = square > dot3(center, center) * (4.0f * SMALL_LIGHT);
-    // Two samples on each of two lines parallel to edge_y.
-    FV scale = -dot3(center, cross3(edge_x, edge_y));
-    FV3 first = add3(center, at.a), left = add3(first, scale3(edge_x, fv(0.155051026f)));
-    FV3 right = add3(first, scale3(edge_x, fv(0.644948974f)));
-    FV whole = sample_of(add3(left, scale3(edge_y, fv(0.178558726f))), scale * 0.159020691f) +
-               sample_of(add3(left, scale3(edge_y, fv(0.666390246f))), scale * 0.159020691f) +
-               (sample_of(add3(right, scale3(edge_y, fv(0.0750311102f))), scale * 0.0909793091f) +
-                sample_of(add3(right, scale3(edge_y, fv(0.280019916f))), scale * 0.0909793091f));
-    if (lane_any(large)) {
-        FV3 c = add3(center, at.c);
-        whole = lane_select(large, edge_sum(first, add3(center, at.b), c, c) * -0.5f, whole);
-    }
-    return above_horizon(whole, square * 0.25f, center, at);
+    FV way = polygon_way(center, lowest(center, at), square, area);
+    FV samples = fv(0.0f);
+    if (lane_any(way == BY_SAMPLES))
+        samples = triangle_samples(add3(center, at.a), edge_x, edge_y, -dot3(center, area));
+    return polygon_cosine(center, at, way, samples);
 }
 
 #if defined(__cplusplus)

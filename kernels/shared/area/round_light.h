@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The irradiance of spheres and ellipses of luminance 1, in the frame and unit of polygon_light.h.
-// Exact for a sphere, and for an ellipse above the horizon. The horizon cuts an ellipse as it does
-// the circular cone about the same axis that touches the horizon with it.
+// In closed form, but where the horizon cuts a small ellipse: there the cut is that of the circular
+// cone about the same axis that touches the horizon with it.
 #ifndef KILOLUX_SHARED_AREA_ROUND_LIGHT_H
 #define KILOLUX_SHARED_AREA_ROUND_LIGHT_H
 #include "kernels/shared/area/polygon_light.h"
@@ -41,9 +41,9 @@ SHARED_FN FV cut_cone_cosine(FV axis_z, FV sine2, FV cosine2) {
     return fma(axis_z, angle, straight + lane_divide(bent, sine2)) * 0.318309886f;
 }
 
-// The mean over a circular cone, weighted by the cosine to its axis, of ... the irradiance as a
-// share of that with the cone's axis along the normal. sine2, cosine2: squares of the sine and
-// cosine of the cone's half angle, not 0.
+// The irradiance of a circular cone as a share of that with its axis along the normal. axis_z: the
+// cosine between both. sine2, cosine2: squares of the sine and cosine of the cone's half angle,
+// above 0.
 SHARED_FN FV cone_cosine(FV axis_z, FV sine2, FV cosine2) {
     FV share = max(axis_z, fv(0.0f));
     MASK cut = axis_z * axis_z < sine2;
@@ -92,8 +92,11 @@ SHARED_FN FlatLight sphere_disk(FV3 center, FV radius) {
 
 // The root above 0 of k^3 + a k^2 + b k - c, whose other roots are below 0, from above: Laguerre.
 SHARED_FN FV largest_root(FV k, FV a, FV b, FV c) {
-    k = lane_select(b > 0.0f, min(k, lane_divide(c, max(b, fv(1e-37f)))), k);
-    for (int i = 0; i < 3; ++i) {
+    // Without k^3 the root is above. This start is near where the root is small beside the others.
+    FV wide = max(a, fv(0.0f));
+    FV below = b + lane_sqrt(max(fma(b, b, 4.0f * wide * c), fv(0.0f)));
+    k = lane_select(a > 0.0f, min(k, lane_divide(2.0f * c, max(below, fv(1e-37f)))), k);
+    for (int i = 0; i < 2; ++i) {
         FV value = fma(fma(k + a, k, b), k, -c);
         FV slope = fma(fma(fv(3.0f), k, 2.0f * a), k, b);
         FV bend = fma(fv(6.0f), k, 2.0f * a);
@@ -131,8 +134,8 @@ SHARED_FN EllipseCone ellipse_cone(FV3 center, FV3 half_x, FV3 half_y) {
     cone.k = k;
     cone.axis_z = max(min(along_z * inverse_length(slope * along), fv(1.0f)), fv(-1.0f));
     cone.faced = fv(-3.14159265f) * volume * inverse_length(k * slope);
-    cone.spread = max(fma(k * cone.axis_z, cone.axis_z,
-                          fma(x.z, x.z, fma(y.z, y.z, -(c.z * c.z)))), fv(0.0f));
+    cone.spread = max(fma(k * cone.axis_z, cone.axis_z, fma(x.z, x.z, fma(y.z, y.z, -(c.z * c.z)))),
+                      fv(0.0f));
     // p q and p + q, by whichever form does not cancel.
     FV product = volume * lane_divide(volume, k);
     FV sum = lane_select(cc > size, lane_divide(product - minors, k), (size - cc) + k);
@@ -149,6 +152,15 @@ SHARED_FN FV turn_of(FV cross, FV dot) {
     FV angle = angle_over_sine(x) * sine;
     angle = lane_select(dot < 0.0f, fv(3.14159265f) - angle, angle);
     return lane_select(cross < 0.0f, -angle, angle);
+}
+
+// log2((1 + a) (1 - b) / ((1 - a) (1 + b))) for |a|, |b| < 1, of small relative error.
+SHARED_FN FV log2_of_quotient(FV a, FV b) {
+    FV above = (1.0f + a) * (1.0f - b), below = max((1.0f - a) * (1.0f + b), fv(1e-30f));
+    FV f = lane_divide(2.0f * (a - b), above);  // 1 - below / above
+    MASK small = max(f, -f) < 0.29f;
+    f = max(min(f, fv(0.29f)), fv(-0.29f));
+    return lane_select(small, f * log2_slope(f), log2_of(lane_divide(above, below)));
 }
 
 // The cone's irradiance where the horizon cuts it: the integral along the outline, which is
@@ -170,19 +182,19 @@ SHARED_FN FV cut_ellipse_cosine(EllipseCone cone) {
     FV to_c = fma(c0, c, -(s0 * s)), to_s = fma(s0, c, c0 * s);
     FV root_pk = lane_sqrt(pk), root_qk = lane_sqrt(qk), root_pq = lane_sqrt(pq);
     // Three integrals: of 1, of the cosine and of the sine, over the square of the distance.
-    FV around = turn_of(root_pk * root_qk * 2.0f * s * c, fma(pk * from_c, to_c, qk * from_s * to_s));
+    FV around =
+        turn_of(root_pk * root_qk * 2.0f * s * c, fma(pk * from_c, to_c, qk * from_s * to_s));
     around = lane_select(around < 0.0f, around + 6.28318531f, around);
     FV sum = lane_divide(cone.axis_z * root_p * root_q * around, root_pk * root_qk);
     FV e = lane_divide(root_pq, root_pk);
-    FV up = lane_divide((1.0f + e * to_s) * (1.0f - e * from_s),
-                        max((1.0f - e * to_s) * (1.0f + e * from_s), fv(1e-30f)));
-    sum -= lane_divide(a * root_q * root_k * 0.346573590f * log2_of(up), root_pk * root_pq);
+    FV log2 = log2_of_quotient(e * to_s, e * from_s);
+    sum -= lane_divide(a * root_q * root_k * 0.346573590f * log2, root_pk * root_pq);
     FV across = turn_of(root_qk * root_pq * (from_c - to_c), fma(pq * from_c, to_c, qk));
     sum -= lane_divide(b * root_p * root_k * across, root_qk * root_pq);
     // The edge on the horizon.
-    FV normal = fma(a * root_q * root_k, to_s - from_s,
-                    fma(b * root_p * root_k, from_c - to_c,
-                        cone.axis_z * root_p * root_q * (-2.0f * s * c)));
+    FV normal = fma(
+        a * root_q * root_k, to_s - from_s,
+        fma(b * root_p * root_k, from_c - to_c, cone.axis_z * root_p * root_q * (-2.0f * s * c)));
     FV dot = fma(p * from_c, to_c, fma(q * from_s, to_s, k));
     return 0.5f * (sum + turn_of(max(normal, fv(0.0f)), dot));
 }
@@ -197,23 +209,24 @@ SHARED_FN FV ellipse_cosine(FV3 center, FV3 half_x, FV3 half_y, MASK large) {
     FV sine2 = max(cone.spread * both, fv(1e-37f));
     FV cosine = cone.faced * cone_cosine(cone.axis_z, sine2, rest * both);
     FV cut = lane_select(large, sine2 - cone.axis_z * cone.axis_z, fv(0.0f));
-    if (lane_any(cut > 0.0f))
-        cosine = lane_select(cut > 0.0f, cut_ellipse_cosine(cone), cosine);
+    if (lane_any(cut > 0.0f)) cosine = lane_select(cut > 0.0f, cut_ellipse_cosine(cone), cosine);
     return lane_select(cone.faced > 0.0f, cosine, fv(0.0f));
 }
 
 // An ellipse that shines to the side of half_x x half_y.
 SHARED_FN FV disk_cosine(FV3 center, FV3 half_x, FV3 half_y) {
     FV square = dot3(half_x, half_x) + dot3(half_y, half_y);
-    FV whole = four_samples(center, scale3(half_x, fv(0.5f)), scale3(half_y, fv(0.5f)),
-                            fv(-0.785398163f) * dot3(center, cross3(half_x, half_y)));
-    FV low = fma(half_x.z, half_x.z, half_y.z * half_y.z);
-    MASK cut = low > center.z * center.z;
+    FV reach2 = fma(half_x.z, half_x.z, half_y.z * half_y.z);
     MASK large = square > dot3(center, center) * SMALL_LIGHT;
-    FV exact = lane_select(cut, fv(1.0f), lane_select(large, fv(1.0f), fv(0.0f)));
+    MASK low = reach2 > center.z * center.z;
+    FV exact = lane_select(low, fv(1.0f), lane_select(large, fv(1.0f), fv(0.0f)));
+    FV cosine = fv(0.0f);
+    if (lane_any(exact < 1.0f))
+        cosine = four_samples(center, scale3(half_x, fv(0.5f)), scale3(half_y, fv(0.5f)),
+                              dot3(center, cross3(half_x, half_y)) * -0.785398163f);
     if (lane_any(exact > 0.0f))
-        whole = lane_select(exact > 0.0f, ellipse_cosine(center, half_x, half_y, large), whole);
-    return max(min(whole, fv(3.14159265f)), fv(0.0f));
+        cosine = lane_select(exact > 0.0f, ellipse_cosine(center, half_x, half_y, large), cosine);
+    return max(min(cosine, fv(3.14159265f)), fv(0.0f));
 }
 
 #if defined(__cplusplus)

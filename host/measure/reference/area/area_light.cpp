@@ -68,12 +68,10 @@ Rule gauss(int n) {
     return rule;
 }
 
-double largest(const dvec3& v) {
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
+double largest(const dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 class Integrator {
-public:
+ public:
     Integrator(std::vector<Patch> patches, const AreaIntegrand& integrand)
         : patches_(std::move(patches)), integrand_(integrand) {}
 
@@ -91,7 +89,7 @@ public:
         return sum();
     }
 
-private:
+ private:
     AreaIntegral sum() {
         AreaIntegral result;
         double size = 0.0;
@@ -197,8 +195,13 @@ std::optional<AreaShape> flat_shape(AreaShape shape) {
 }
 
 std::vector<Patch> ellipse_patches(const AreaShape& shape, const std::optional<dvec3>& normal) {
-    Patch patch{true, shape.center, shape.half_x, shape.half_y,
-                -std::numbers::pi / 2.0, std::numbers::pi / 2.0, -1.0};
+    Patch patch{true,
+                shape.center,
+                shape.half_x,
+                shape.half_y,
+                -std::numbers::pi / 2.0,
+                std::numbers::pi / 2.0,
+                -1.0};
     if (!normal) return {patch};
     const double height = glm::dot(*normal, shape.center);
     const double x = glm::dot(*normal, shape.half_x), y = glm::dot(*normal, shape.half_y);
@@ -234,8 +237,8 @@ std::vector<Patch> polygon_patches(const AreaShape& shape, const std::optional<d
     if (normal) corners = cut_corners(corners, *normal);
     std::vector<Patch> patches;
     for (std::size_t i = 2; i < corners.size(); ++i)
-        patches.push_back({false, corners[0], corners[i - 1] - corners[0],
-                           corners[i] - corners[0]});
+        patches.push_back(
+            {false, corners[0], corners[i - 1] - corners[0], corners[i] - corners[0]});
     return patches;
 }
 
