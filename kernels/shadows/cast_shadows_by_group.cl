@@ -330,7 +330,8 @@ static inline void cast_light(ShadowScene scene, ShadowLight light, uint first, 
         if (place < end) seen += lane_count(lit_of(points, k));
     }
     count_rays(points, tests_before, rays, seen);
-    barrier(CLK_LOCAL_MEM_FENCE);  // all flags are set
+    // All flags are set, and all have read the words.
+    barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
     store_words(first, end, walk, words);
 }
 
@@ -364,7 +365,6 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cast_shadows(
                     slot = next_lobe(from, slot);
                     continue;
                 }
-                barrier(CLK_GLOBAL_MEM_FENCE);  // all have read them
 #endif
                 cast_light(scene, light_at_slot(from, light, slot), first, last, &walk, &points,
                            slot_words + slot * count);

@@ -41,7 +41,7 @@ AreaFrame area_frame(int lanes, int group, uint width = 33, int shading = SHADIN
     shape.height = 17;
     const View view = make_view(shape);
     LightMix mix;
-    mix.count = 12;
+    mix.count = 6;
     mix.range_min = 20;
     mix.range_max = 60;
     const ClusterGrid grid = make_cluster_grid({2, 2, 1, 1.0f, 30.0f}, view.width, view.height);
