@@ -40,25 +40,17 @@ typedef struct LaneFractions {
     UV u, v, w;
 } LaneFractions;
 
-// The numbers of attempt `attempt` of the ray of a lobe's slot `slot` to a light. Slots 0, 2, ... and
-// 1, 3, ... are two independent sets. The first attempts of a set are a lattice that a random
-// shift moves: its points spread evenly, and each alone is uniform (Roberts 2018, "The Unreasonable
-// Effectiveness of Quasirandom Sequences": powers of the root of x^4 = x + 1). Later attempts are
-// independent of all others.
+// The numbers of attempt `attempt` of the ray of a lobe's slot `slot` to a light. Slots 0, 2, ...
+// and 1, 3, ... are two independent sets, and so are attempts. In each the numbers are a lattice
+// that a random shift moves: its points spread evenly, and each alone is uniform (Roberts 2018,
+// "The Unreasonable Effectiveness of Quasirandom Sequences": powers of the root of x^4 = x + 1).
 static inline LaneFractions ray_fractions(uint key, UV pixel, uint slot, uint attempt) {
+    uint set = hash_of(hash_of(key + 1u + (slot & 1u)) + attempt);
+    uint i = slot >> 1;
     LaneFractions out;
-    uint set = hash_of(key + 1u + (slot & 1u));
-    if (attempt == 0u) {
-        uint i = slot >> 1;
-        out.u = pixel + (hash_of(set + 1u) + i * 0xd1b54a33u);
-        out.v = lane_hash(pixel + 1u) + (hash_of(set + 2u) + i * 0xabc98389u);
-        out.w = lane_hash(pixel + 2u) + (hash_of(set + 3u) + i * 0x8cb92ba7u);
-    } else {
-        UV own = pixel ^ hash_of(hash_of(set + slot) + attempt);
-        out.u = lane_hash(own);
-        out.v = lane_hash(own + 0x9e3779b9u);
-        out.w = lane_hash(own + 0x3c6ef372u);
-    }
+    out.u = pixel + (hash_of(set + 1u) + i * 0xd1b54a33u);
+    out.v = lane_hash(pixel + 1u) + (hash_of(set + 2u) + i * 0xabc98389u);
+    out.w = lane_hash(pixel + 2u) + (hash_of(set + 3u) + i * 0x8cb92ba7u);
     return out;
 }
 #endif

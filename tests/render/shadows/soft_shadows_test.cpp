@@ -75,26 +75,25 @@ TEST(SoftShadows, OfGlossyMetalAreThoseOfItsLobe) {
 // Means of batches of pictures: with few pictures an estimated variance is noisy itself.
 TEST(SoftShadows, IntervalsHoldTheTruth) {
     const SharePixels found =
-        seen_shares(board_below(panel(LightType::rectangle)), soft_settings(), 1200, 60);
+        seen_shares(board_below(panel(LightType::rectangle)), soft_settings(), 3000, 100);
     double within = 0.0, all = 0.0, actual = 0.0, estimated = 0.0;
     for (const SharePixel& pixel : found.pixels) {
-        if (pixel.truth < 0.05 || pixel.truth > 0.95) continue;
+        if (pixel.truth < 0.1 || pixel.truth > 0.9) continue;  // too few rays of one kind
         within += pixel.batches_within;
         all += found.batches;
         actual += pixel.variance;
         estimated += pixel.estimated;
     }
     ASSERT_GT(all, 1000.0);
-    std::printf("intervals hold %.4f of %.0f, estimated / actual variance %.4f\n", within / all, all, estimated / actual);
     EXPECT_NEAR(within / all, 0.95, 0.015);
     EXPECT_NEAR(estimated / actual, 1.0, 0.05);
 }
 
 TEST(SoftShadows, ErrorsFallWithTheRays) {
-    const ShadowScenario scenario = board_below(panel(LightType::sphere));
+    const ShadowScenario scenario = board_below(panel(LightType::rectangle));
     double before = 0.0;
     for (const int rays : {2, 8, 32}) {
-        const SharePixels found = seen_shares(scenario, soft_settings(48, 27, rays), 40);
+        const SharePixels found = seen_shares(scenario, soft_settings(48, 27, rays), 100);
         const double variance =
             std::accumulate(found.pixels.begin(), found.pixels.end(), 0.0,
                             [](double sum, const SharePixel& p) { return sum + p.variance; });
@@ -138,7 +137,8 @@ TEST(SoftShadows, PenumbraeAreAsWideAsSimilarTriangles) {
     int dark = 0, partial = 0, lit = 0;
     for (const SharePixel& pixel : found.pixels) {
         const double x = pixel.position.x / half_width;
-        if (pixel.position.y > 0.1 || std::abs(pixel.position.z) > 2.0) continue;
+        if (std::abs(pixel.position.y) > 0.1 || std::abs(pixel.position.z) > 2.0) continue;
+        if (pixel.position.x < -4.0) continue;  // beyond the board's other edge
         if (x < -1.02) {
             EXPECT_LT(std::abs(pixel.mean), 0x1p-18) << x;
         } else if (x > 1.02) {
