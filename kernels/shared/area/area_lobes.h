@@ -52,6 +52,9 @@ SHARED_FN LightSum add_area_lobes(LightSum sum, ShadingPoint p, SeenLight view, 
                                   float4 color) {
     SeenLight framed = light_in_frame(p.frame, view);
     FV cosine = light_cosine(framed);
+#if !(HAS_COAT && HAS_COAT_NORMAL)
+    if (!lane_any(cosine > fv(0.0f))) return sum;
+#endif
     FV3 v = typical_vector(framed, typical_point(with_half_sides(framed), fill_of(framed)));
     FV3 l = scale3(v, lane_rsqrt(max(dot3(v, v), fv(1e-30f))));
     FV cos2_half = fma(p.frame.eye_x, l.x, fma(p.frame.eye_z, l.z, fv(1.0f)));  // 2 (v.h)^2

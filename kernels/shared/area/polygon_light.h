@@ -15,10 +15,11 @@
 // Below this square of size / distance samples are used. Both forms have their largest errors
 // there: tests/measure/area/area_cosine_test.cpp prints them.
 #define SMALL_LIGHT 0.003f
-// Below this square of size / distance distant_edge can be used.
+// Below this one distant_edge can be used, and below the next it is where the horizon cuts.
 #define DISTANT_LIGHT 0.1f
+#define DISTANT_CUT_LIGHT 3e-4f
 // Below this square of width / distance a light is narrow.
-#define NARROW_LIGHT 3e-3f
+#define NARROW_LIGHT 2e-4f
 // Squares of lengths below this one count as 0 [m^2].
 #define SMALLEST_SQUARE 1e-36f
 
@@ -57,10 +58,6 @@ SHARED_FN FV edge_term(FV3 p, FV3 q, FV inverse) {
     return term;
 }
 
-SHARED_FN FV any_edge(FV3 p, FV3 q) {
-    return edge_term(p, q, inverse_length(dot3(p, p)) * inverse_length(dot3(q, q)));
-}
-
 // z / r^4 at a point, times `scale`.
 SHARED_FN FV sample_of(FV3 point, FV scale) {
     FV inverse = lane_divide(fv(1.0f), max(dot3(point, point), fv(SMALLEST_SQUARE)));
@@ -96,7 +93,7 @@ SHARED_FN FV angle_excess(FV v) {
     return fma(s, v, fv(0.333333969f));
 }
 
-// As any_edge from center + p to center + q, times |center|^2, and less the part that is 0 in the
+// As edge_term from center + p to center + q, times |center|^2, and less the part that is 0 in the
 // sum over a closed outline: the difference of the edge's weight from that of the centre is exact.
 // For offsets up to half of the distance. center, p and q in units of |center|.
 SHARED_FN FV distant_edge(FV3 center, FV3 p, FV3 q) {
@@ -114,32 +111,75 @@ SHARED_FN FV distant_edge(FV3 center, FV3 p, FV3 q) {
     return fma(more, across.z, between.z);
 }
 
-// The edge from p to q, offsets from the centre; `distant`: by distant_edge.
-SHARED_FN FV edge_of(FV3 center, FV3 p, FV3 q, bool distant) {
-    if (distant) return distant_edge(center, p, q);
-    return any_edge(add3(center, p), add3(center, q));
+// The outline of a light that the horizon cuts: offsets from its centre where it goes down through
+// the horizon and where it comes up. A convex outline does so once.
+SHARED_PLAIN_STRUCT(HorizonCut) { FV3 set, rise; };
+
+SHARED_FN HorizonCut cut_at_horizon(FV3 center, Corners at) {
+    FV a = below_horizon(center, at.a), b = below_horizon(center, at.b);
+    FV c = below_horizon(center, at.c), d = below_horizon(center, at.d);
+    HorizonCut cut;
+    cut.set = horizon_point(center.z,
+                            select3(b > a, at.a, select3(c > b, at.b, select3(d > c, at.c, at.d))),
+                            select3(b > a, at.b, select3(c > b, at.c, select3(d > c, at.d, at.a))));
+    cut.rise = horizon_point(
+        center.z, select3(b < a, at.a, select3(c < b, at.b, select3(d < c, at.c, at.d))),
+        select3(b < a, at.b, select3(c < b, at.c, select3(d < c, at.d, at.a))));
+    return cut;
 }
 
-// The part of an edge above the horizon, which it meets in `cut`.
-SHARED_FN FV cut_edge(FV3 center, FV3 p, FV3 q, FV3 cut, bool distant) {
+// The part of an edge above the horizon, by distant_edge.
+SHARED_FN FV cut_distant_edge(FV3 center, FV3 p, FV3 q, HorizonCut cut) {
     FV p_below = below_horizon(center, p), q_below = below_horizon(center, q);
-    FV edge =
-        edge_of(center, select3(p_below > 0.0f, cut, p), select3(q_below > 0.0f, cut, q), distant);
+    FV edge = distant_edge(center, select3(p_below > 0.0f, cut.rise, p),
+                           select3(q_below > 0.0f, cut.set, q));
     return edge * fma(-p_below, q_below, fv(1.0f));
 }
 
 // The part of the outline above the horizon, and the edge on the horizon.
-SHARED_FN FV cut_outline_sum(FV3 center, Corners at, bool distant) {
-    FV a = below_horizon(center, at.a), b = below_horizon(center, at.b);
-    FV c = below_horizon(center, at.c), d = below_horizon(center, at.d);
-    FV3 ab = horizon_point(center.z, at.a, at.b), bc = horizon_point(center.z, at.b, at.c);
-    FV3 cd = horizon_point(center.z, at.c, at.d), da = horizon_point(center.z, at.d, at.a);
-    // A convex outline sets once and rises once.
-    FV3 set = select3(b > a, ab, select3(c > b, bc, select3(d > c, cd, da)));
-    FV3 rise = select3(b < a, ab, select3(c < b, bc, select3(d < c, cd, da)));
-    return (cut_edge(center, at.a, at.b, ab, distant) + cut_edge(center, at.b, at.c, bc, distant)) +
-           (cut_edge(center, at.c, at.d, cd, distant) + cut_edge(center, at.d, at.a, da, distant)) +
-           edge_of(center, set, rise, distant);
+SHARED_FN FV cut_distant_sum(FV3 center, Corners at) {
+    HorizonCut cut = cut_at_horizon(center, at);
+    return (cut_distant_edge(center, at.a, at.b, cut) + cut_distant_edge(center, at.b, at.c, cut)) +
+           (cut_distant_edge(center, at.c, at.d, cut) + cut_distant_edge(center, at.d, at.a, cut)) +
+           distant_edge(center, cut.set, cut.rise);
+}
+
+// A point of an outline.
+SHARED_PLAIN_STRUCT(Vertex) {
+    FV3 at;
+    FV inverse;  // 1 / distance
+    FV below;    // 1 below the horizon, else 0
+};
+
+SHARED_FN Vertex vertex_at(FV3 center, FV3 offset) {
+    Vertex v;
+    v.at = add3(center, offset);
+    v.inverse = inverse_length(dot3(v.at, v.at));
+    v.below = lane_select(v.at.z < 0.0f, fv(1.0f), fv(0.0f));
+    return v;
+}
+
+SHARED_FN Vertex above_or(Vertex v, Vertex on_horizon) {
+    MASK below = v.below > 0.0f;
+    on_horizon.at = select3(below, on_horizon.at, v.at);
+    on_horizon.inverse = lane_select(below, on_horizon.inverse, v.inverse);
+    return on_horizon;
+}
+
+SHARED_FN FV cut_edge(Vertex p, Vertex q, Vertex set, Vertex rise) {
+    Vertex from = above_or(p, rise), to = above_or(q, set);
+    return edge_term(from.at, to.at, from.inverse * to.inverse) * fma(-p.below, q.below, fv(1.0f));
+}
+
+// As cut_distant_sum by Lambert's sum, times -2.
+SHARED_FN FV cut_edge_sum(FV3 center, Corners at) {
+    HorizonCut cut = cut_at_horizon(center, at);
+    Vertex set = vertex_at(center, cut.set), rise = vertex_at(center, cut.rise);
+    Vertex a = vertex_at(center, at.a), b = vertex_at(center, at.b);
+    Vertex c = vertex_at(center, at.c), d = vertex_at(center, at.d);
+    return (cut_edge(a, b, set, rise) + cut_edge(b, c, set, rise)) +
+           (cut_edge(c, d, set, rise) + cut_edge(d, a, set, rise)) +
+           edge_term(set.at, rise.at, set.inverse * rise.inverse);
 }
 
 // Lambert's sum, times -2, over the corners of a light above the horizon.
@@ -160,26 +200,29 @@ SHARED_FN Corners scale_corners(Corners at, FV s) {
     return at;
 }
 
-// Ways to integrate over a polygon.
+// Ways to integrate over a polygon; none where it is below the horizon or seen from behind.
+#define BY_NONE (-1.0f)
 #define BY_SAMPLES 0.0f
 #define BY_EDGES 1.0f
 #define BY_CUT_EDGES 2.0f
 #define BY_DISTANT_EDGES 3.0f
 
 // square: of the size; area: half_x x half_y of a parallelogram, or as much of a triangle.
-SHARED_FN FV polygon_way(FV3 center, FV low, FV square, FV3 area) {
+SHARED_FN FV polygon_way(FV3 center, Corners at, FV square, FV3 area) {
+    FV low = min(min(at.a.z, at.b.z), min(at.c.z, at.d.z)) + center.z;
+    FV high = max(max(at.a.z, at.b.z), max(at.c.z, at.d.z)) + center.z;
     FV distance2 = dot3(center, center);
     MASK distant = square < distance2 * DISTANT_LIGHT;
     MASK narrow = dot3(area, area) < square * distance2 * NARROW_LIGHT;
-    FV cut = lane_select(distant, fv(BY_DISTANT_EDGES), fv(BY_CUT_EDGES));
-    FV whole = lane_select(distant, lane_select(narrow, cut, fv(BY_EDGES)), fv(BY_EDGES));
+    FV cut = lane_select(narrow, fv(BY_DISTANT_EDGES), fv(BY_CUT_EDGES));
+    FV whole = lane_select(narrow, fv(BY_DISTANT_EDGES), fv(BY_EDGES));
+    cut = lane_select(distant, cut, fv(BY_CUT_EDGES));
+    cut = lane_select(square < distance2 * DISTANT_CUT_LIGHT, fv(BY_DISTANT_EDGES), cut);
+    whole = lane_select(distant, whole, fv(BY_EDGES));
     whole = lane_select(square < distance2 * SMALL_LIGHT, fv(BY_SAMPLES), whole);
-    return lane_select(low < 0.0f, cut, whole);
-}
-
-// Height of the lowest corner.
-SHARED_FN FV lowest(FV3 center, Corners at) {
-    return min(min(at.a.z, at.b.z), min(at.c.z, at.d.z)) + center.z;
+    FV way = lane_select(low < 0.0f, cut, whole);
+    FV shown = lane_select(dot3(center, area) < 0.0f, high, fv(0.0f));
+    return lane_select(shown > 0.0f, way, fv(BY_NONE));
 }
 
 // The parallelogram or, with c = d, triangle with these corners; `samples`: its result by samples.
@@ -188,15 +231,13 @@ SHARED_FN FV polygon_cosine(FV3 center, Corners at, FV way, FV samples) {
     if (lane_any(way == BY_EDGES))
         cosine = lane_select(way == BY_EDGES, edge_sum(center, at) * -0.5f, cosine);
     if (lane_any(way == BY_CUT_EDGES))
-        cosine =
-            lane_select(way == BY_CUT_EDGES, cut_outline_sum(center, at, false) * -0.5f, cosine);
+        cosine = lane_select(way == BY_CUT_EDGES, cut_edge_sum(center, at) * -0.5f, cosine);
     if (lane_any(way == BY_DISTANT_EDGES)) {
         FV inverse = inverse_length(dot3(center, center));
-        FV sum = cut_outline_sum(scale3(center, inverse), scale_corners(at, inverse), true);
+        FV sum = cut_distant_sum(scale3(center, inverse), scale_corners(at, inverse));
         cosine = lane_select(way == BY_DISTANT_EDGES, sum * -0.5f, cosine);
     }
-    FV high = max(max(at.a.z, at.b.z), max(at.c.z, at.d.z)) + center.z;
-    cosine = lane_select(high > 0.0f, cosine, fv(0.0f));
+    cosine = lane_select(way == BY_NONE, fv(0.0f), cosine);
     return max(min(cosine, fv(3.14159265f)), fv(0.0f));
 }
 
@@ -209,7 +250,7 @@ SHARED_FN FV parallelogram_cosine(FV3 center, FV3 half_x, FV3 half_y) {
     at.a = fv3(-at.c.x, -at.c.y, -at.c.z);
     at.d = fv3(-at.b.x, -at.b.y, -at.b.z);
     FV square = dot3(half_x, half_x) + dot3(half_y, half_y);
-    FV way = polygon_way(center, lowest(center, at), square, area);
+    FV way = polygon_way(center, at, square, area);
     FV samples = fv(0.0f);
     if (lane_any(way == BY_SAMPLES))
         samples = four_samples(center, scale3(half_x, fv(0.577350269f)),
@@ -237,7 +278,7 @@ SHARED_FN FV triangle_cosine(FV3 center, FV3 edge_x, FV3 edge_y) {
     at.c = add3(at.a, edge_y);
     at.d = at.c;
     FV square = dot3(edge_x, edge_x) + dot3(edge_y, edge_y);
-    FV way = polygon_way(center, lowest(center, at), square, area);
+    FV way = polygon_way(center, at, square, area);
     FV samples = fv(0.0f);
     if (lane_any(way == BY_SAMPLES))
         samples = triangle_samples(add3(center, at.a), edge_x, edge_y, -dot3(center, area));
