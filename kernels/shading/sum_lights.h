@@ -209,8 +209,8 @@ static inline bool hides_any(LightSet set, uint entry) {
 #else
 #define hides_any(set, entry) true
 #endif
-#define ADD_AREA(set, entry, light, sum, ONE)                                            \
-    if (is_area(set, light)) {                                                           \
+#define ADD_AREA(set, entry, light, sum, ONE)                                           \
+    if (is_area(set, light)) {                                                          \
         if (hides_any(set, entry)) (sum) = sampled_area(set, entry, light, (ONE), sum); \
     } else
 #else
@@ -221,15 +221,13 @@ static inline bool hides_any(LightSet set, uint entry) {
 // sum alone, which bits need only where one is set.
 #if SHADOWS == SHADOWS_BITS
 #define ADD_SAMPLED(set, entry, light, sum, ONE)                            \
-    ADD_AREA(set, entry, light, sum, ONE)                                   \
-    {                                                                       \
+    ADD_AREA(set, entry, light, sum, ONE) {                                 \
         MASK hidden = hides_drawn(set, entry, light);                       \
         if (lane_any(hidden)) (sum) = sampled_sum(set, hidden, (ONE), sum); \
     }
 #else
 #define ADD_SAMPLED(set, entry, light, sum, ONE)                          \
-    ADD_AREA(set, entry, light, sum, ONE)                                 \
-    {                                                                     \
+    ADD_AREA(set, entry, light, sum, ONE) {                               \
         LightSum one = (ONE);                                             \
         MASK hidden = hides_drawn(set, entry, light, one);                \
         if (lane_any(hidden)) (sum) = sampled_sum(set, hidden, one, sum); \

@@ -9,8 +9,8 @@
 
 #if AREA_SHADOWS
 // The part of `lit` that a triangle hides from the lane's target. v: its corners, in all lanes.
-static inline MASK hidden_by(const FV3* v, uint child, ShadowScene scene, LaneLight light, FV3 point,
-                             MASK lit) {
+static inline MASK hidden_by(const FV3* v, uint child, ShadowScene scene, LaneLight light,
+                             FV3 point, MASK lit) {
     MASK shaded = lit & passes_box(light, point, boxes_of(v));
     if (!lane_any(shaded)) return shaded;
     MASK sure;
@@ -53,8 +53,8 @@ static inline void shade_found_targets(ShadowScene scene, ShadowLight light, Sha
     for (uint first = 0; first < count; first += VW) {
         FV3 v[3];
         load_casters(scene, found + first, v);
-        uint bits = lane_ballot(may_part(shaft, light, v) &
-                                lane_mask(lane_numbers < (UV)(count - first)));
+        uint bits =
+            lane_ballot(may_part(shaft, light, v) & lane_mask(lane_numbers < (UV)(count - first)));
         for (; bits != 0u; bits &= bits - 1u) {
             uint child = found[first + lowest_bit(bits)];
             global const float* t = scene.casters + (ulong)caster_of(scene, child) * 9u;

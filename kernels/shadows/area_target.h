@@ -46,7 +46,8 @@ typedef struct AreaOrigins {
     FV3 position, normal;  // of the surface, view space
     UV key;                // pixel_key()
 #if AREA_LOBES > 1u
-    FV3 gloss_x, gloss_y;  // to the space where the glossy lobe is a cosine about z, rows of x and y
+    FV3 gloss_x,
+        gloss_y;  // to the space where the glossy lobe is a cosine about z, rows of x and y
 #endif
 } AreaOrigins;
 
@@ -61,10 +62,8 @@ static inline AreaOrigins area_origins(ShadingPoint p, Pixels pixels) {
     FV3 x = transformed(p.area, fv3(one, zero, zero));
     FV3 y = transformed(p.area, fv3(zero, one, zero));
     FV3 z = transformed(p.area, fv3(zero, zero, one));
-    out.gloss_x =
-        add_along(add_along(scale3(p.frame.x, x.x), p.frame.y, y.x), p.frame.z, z.x);
-    out.gloss_y =
-        add_along(add_along(scale3(p.frame.x, x.y), p.frame.y, y.y), p.frame.z, z.y);
+    out.gloss_x = add_along(add_along(scale3(p.frame.x, x.x), p.frame.y, y.x), p.frame.z, z.x);
+    out.gloss_y = add_along(add_along(scale3(p.frame.x, x.y), p.frame.y, y.y), p.frame.z, z.y);
 #endif
     return out;
 }

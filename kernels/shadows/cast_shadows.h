@@ -27,9 +27,8 @@ typedef struct CastLights {
     float rays;  // SAMPLE_ARGS
     uint seed;
 } CastLights;
-#define CAST_LIGHTS_OF_ARGS                                                                   \
-    ((CastLights){directional_lights, directional_count, lights, lists, EXTRAS_OF_ARGS, rays, \
-                  seed})
+#define CAST_LIGHTS_OF_ARGS \
+    ((CastLights){directional_lights, directional_count, lights, lists, EXTRAS_OF_ARGS, rays, seed})
 
 static inline uint count_of_cluster(CastLights from, global const ActiveCluster* cluster) {
     return from.directional_count + cluster->list_count;
@@ -90,7 +89,7 @@ static inline bool any_word(global const uint* words, uint count) {
 }
 
 kernel void cast_shadows_reserve(uint tile_count, uint directional_count,
-                                 uint slots,  // of each light of a list
+                                 uint slots,                        // of each light of a list
                                  CLUSTER_ARGS(),                    // in/out: shadow_words set
                                  global uint* restrict reserves) {  // out [tile_count]
     uint tile = get_global_id(0);

@@ -56,7 +56,7 @@ kernel void cast_shadows(
         uint first = clusters[i].first_pixel;
         UV places = lane_numbers + place;
         walks.wanted = lane_mask(places >= (UV)(first)) &
-                      lane_mask(places < (UV)(first + clusters[i].pixel_count));
+                       lane_mask(places < (UV)(first + clusters[i].pixel_count));
         if (!lane_any(walks.wanted)) continue;
         ShadowBits bits = bits_of_cluster(words + word_offsets[at.tile], clusters + i, place);
         for (uint j = 0; j < count_of_cluster(from, clusters + i); ++j) {

@@ -94,7 +94,8 @@ static inline bool cast_light(ShadowScene scene, ShadowLight light, ClusterBits 
 #endif
     bool met = false;
     if (lane_any(any)) {
-        met = cast_shadows_of(scene, light, box_low(box), box_high(box), first_row, end_row, points);
+        met =
+            cast_shadows_of(scene, light, box_low(box), box_high(box), first_row, end_row, points);
     }
 #if !PICKED_ONLY
     uint count = shadow_words(bits.first, bits.end);

@@ -142,8 +142,7 @@ static inline void shade_found(ShadowScene scene, ShadowLight light, Shaft shaft
         FV3 v[3];
         load_casters(scene, found + first, v);
         MASK sure;
-        ShadowTriangles t =
-            set_up_shadow(v, shared_light(light), scene.view.extent, &sure);
+        ShadowTriangles t = set_up_shadow(v, shared_light(light), scene.view.extent, &sure);
         MASK may = sure & may_shade(shaft, &t) & lane_mask(lane_numbers < (UV)(count - first));
         if (!lane_any(may)) continue;
         FoundTriangles triangles;

@@ -15,9 +15,9 @@
 // ray goes to a point of the light whose density is in proportion to what the lobe reflects, so the
 // share of hidden rays estimates the hidden share of f without bias, and exactly where all or none
 // of the light is hidden. The glossy lobe is that of the base; sheen and coat share its rays. With
-// the shares a and b of the first and the second rays of the pairs and q = min(1, y), (a + b) / (2 q) of
-// f is taken away, whose variance ((a + b)^2 / (4 q^2) - a b / q) f^2 estimates without bias, since
-// a and b are independent.
+// the shares a and b of the first and the second rays of the pairs and q = min(1, y), (a + b) / (2
+// q) of f is taken away, whose variance ((a + b)^2 / (4 q^2) - a b / q) f^2 estimates without bias,
+// since a and b are independent.
 #ifndef KILOLUX_DEVICE_SHADOW_PICK_H
 #define KILOLUX_DEVICE_SHADOW_PICK_H
 #include "kernels/device/gbuffer.h"
@@ -97,7 +97,9 @@ static inline FV picked_pairs(ShadowPick pick, FV alone, uint light, uint lobe) 
 }
 
 // The lanes that cast the ray of a slot.
-static inline MASK casts_slot(FV pairs, uint slot) { return lane_mask(pairs > fv((float)(slot / 2u))); }
+static inline MASK casts_slot(FV pairs, uint slot) {
+    return lane_mask(pairs > fv((float)(slot / 2u)));
+}
 
 // Hidden rays of the first and of the second ones of pairs.
 typedef struct HiddenRays {

@@ -116,8 +116,7 @@ static inline AreaOrigins load_area_origins(const ShadowPoints* from, uint row) 
 static inline void load_area_pixels(ShadowPoints* to, uint row, GBuffer g, Pixels pixels) {
 #if AREA_SHADOWS
     Surface s = load_surface(g, pixels, lit_item(g, pixels).z);
-    AreaOrigins from =
-        area_origins(make_shading_point(s, g.view.orthographic != 0u), pixels);
+    AreaOrigins from = area_origins(make_shading_point(s, g.view.orthographic != 0u), pixels);
     store_area_origins(to, row, from);
 #endif
 }

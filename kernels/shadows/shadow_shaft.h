@@ -3,10 +3,11 @@
 //
 // For a light at o and points in [o + l, o + h] the shaft is their convex hull. It meets a child's
 // box [L, H] exactly where some t in [0, 1] has t l <= H - o and t h >= L - o on all axes: each is
-// an interval of t. For a light in the box [a, b] the same holds with t l <= H - a and t h >= L - b,
-// l and h being the differences of the boxes' low and high ends. For a directional light the box itself moves along its direction: t d <= H - l
-// and t d >= L - h, with t unbounded. The shaft is wider by SHADOW_PAD of its coordinates at both
-// ends, which is more than what float32 and shadow_triangle.h's units need.
+// an interval of t. For a light in the box [a, b] the same holds with t l <= H - a and t h >= L -
+// b, l and h being the differences of the boxes' low and high ends. For a directional light the box
+// itself moves along its direction: t d <= H - l and t d >= L - h, with t unbounded. The shaft is
+// wider by SHADOW_PAD of its coordinates at both ends, which is more than what float32 and
+// shadow_triangle.h's units need.
 #ifndef KILOLUX_DEVICE_SHADOW_SHAFT_H
 #define KILOLUX_DEVICE_SHADOW_SHAFT_H
 #include "kernels/shadows/shadow_triangle.h"

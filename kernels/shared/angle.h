@@ -32,7 +32,8 @@ SHARED_FN FV half_turn_angle(FV x, FV y) {
 // Sine and cosine of an angle.
 SHARED_PLAIN_STRUCT(SineCosine) { FV sine, cosine; };
 
-// Of `angle` from -pi to pi [rad], within 7e-7; the sine of angles up to 3 also within 2e-6 of itself.
+// Of `angle` from -pi to pi [rad], within 7e-7; the sine of angles up to 3 also within 2e-6 of
+// itself.
 SHARED_FN SineCosine sine_cosine(FV angle) {
     // Taylor's polynomials of half the angle, at most pi / 2: the first terms left out are 4e-9 and
     // 5e-8 of 1.

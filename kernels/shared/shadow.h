@@ -77,7 +77,8 @@ SHARED_STRUCT(ShadowView) {
 SHARED_ASSERT(shadow_view_size, sizeof(ShadowView) == 64);
 
 // Rays, and places for their results, that sampled shadows have at most for each lobe of a light
-// with a size where each pixel casts `rays` on average: pairs. Shadows that are not sampled have 0 rays.
+// with a size where each pixel casts `rays` on average: pairs. Shadows that are not sampled have 0
+// rays.
 SHARED_FN uint area_slots(float rays) {
     if (rays <= 0.0f) return 1u;
     uint pairs = uint_of(min(fma(rays, 0.5f, 0.999f), float_of(AREA_SLOTS_MOST / 2u)));

@@ -29,9 +29,9 @@ SHARED_PLAIN_STRUCT(FanTriangle) {
 
 // A shape in the axes of a surface point's light vectors, seen from the point.
 SHARED_PLAIN_STRUCT(SeenShape) {
-    FV3 center;  // from the point [m]
-    FV3 normal;  // of the surface, unit
-    uint kind;   // SHAPE_*
+    FV3 center;          // from the point [m]
+    FV3 normal;          // of the surface, unit
+    uint kind;           // SHAPE_*
     FV3 half_x, half_y;  // [m]
     FV3 first;           // unit direction of the first corner; of a sphere's centre
     FanTriangle fan[2];  // of a triangle the second one is empty
@@ -74,8 +74,7 @@ SHARED_FN FanTriangle fan_triangle(FV3 first, FV3 from, FV3 to) {
     out.volume = max(volume, -volume);
     out.one_and_cosine = fv(1.0f) + dot3(first, from);
     out.cosines = dot3(from, to) + dot3(first, to);
-    out.solid_angle =
-        fv(2.0f) * half_turn_angle(out.one_and_cosine + out.cosines, out.volume);
+    out.solid_angle = fv(2.0f) * half_turn_angle(out.one_and_cosine + out.cosines, out.volume);
     return out;
 }
 
@@ -106,8 +105,8 @@ SHARED_FN SeenShape see_polygon(SeenShape out, FV3 a, FV3 b, FV3 c, FV3 d) {
     out.fan[1] = fan_triangle(first, third, last);
     out.solid_angle = out.fan[0].solid_angle + out.fan[1].solid_angle;
     FV3 axis = unit_direction(add3(add3(first, second), add3(third, last)));
-    FV lowest = min(min(dot3(axis, first), dot3(axis, second)),
-                    min(dot3(axis, third), dot3(axis, last)));
+    FV lowest =
+        min(min(dot3(axis, first), dot3(axis, second)), min(dot3(axis, third), dot3(axis, last)));
     FV3 n = out.normal;
     FV highest = max(max(dot3(n, first), dot3(n, second)), max(dot3(n, third), dot3(n, last)));
     out.most = lane_select(highest > fv(0.0f), most_cosine(highest, lowest), fv(0.0f));
@@ -126,8 +125,7 @@ SHARED_FN SeenShape see_sphere(SeenShape out, FV radius) {
     out.first = scale3(out.center, inv_d);
     out.cone = sine2 / (fv(1.0f) + cosine);
     out.distance = d2 * inv_d;
-    out.solid_angle =
-        lane_select(sine2 < fv(1.0f), fv(6.283185307f) * out.cone, fv(0.0f));
+    out.solid_angle = lane_select(sine2 < fv(1.0f), fv(6.283185307f) * out.cone, fv(0.0f));
     // The cosine of the angle between the normal and the cone, and 1 where the cone holds it.
     FV high = min(dot3(out.normal, out.first), fv(1.0f));
     FV across = lane_sqrt(max(fma(-high, high, fv(1.0f)), fv(0.0f)));

@@ -84,26 +84,31 @@ TEST(SampleShape, KeepsADensityOfTheCosine) {
                 const SeenShape s = seen(c);
                 const glm::dvec3 center = glm::normalize(c.shape.center);
                 const glm::dvec3 across = glm::normalize(glm::cross(center, c.shape.half_x));
-                const double solid = integrate_area(c.shape, [](const glm::dvec3&) {
-                                         return glm::dvec3(1.0);
-                                     }, 1e-6).value.x;
+                const double solid =
+                    integrate_area(
+                        c.shape, [](const glm::dvec3&) { return glm::dvec3(1.0); }, 1e-6)
+                        .value.x;
                 const double all = reference_cosine(c.shape, c.normal).value;
-                const double part = integrate_area(c.shape, c.normal, [&](const glm::dvec3& to) {
-                                        const double side = glm::dot(to, across) > 0.0 ? 1.0 : 0.0;
-                                        return glm::dvec3(side * glm::dot(to, c.normal));
-                                    }, 1e-4).value.x;
+                const double part = integrate_area(
+                                        c.shape, c.normal,
+                                        [&](const glm::dvec3& to) {
+                                            const double side =
+                                                glm::dot(to, across) > 0.0 ? 1.0 : 0.0;
+                                            return glm::dvec3(side * glm::dot(to, c.normal));
+                                        },
+                                        1e-4)
+                                        .value.x;
                 const double weight = std::max(double{s.most}, 0.0) * s.solid_angle;
-                const double kept = mean_of(200, [&](float u, float v) {
-                    return double{sample_shape(s, u, v).share};
-                });
+                const double kept = mean_of(
+                    200, [&](float u, float v) { return double{sample_shape(s, u, v).share}; });
                 const double half = mean_of(200, [&](float u, float v) {
                     const ShapeSample at = sample_shape(s, u, v);
                     return glm::dot(direction_of(at), across) > 0.0 ? double{at.share} : 0.0;
                 });
-                EXPECT_NEAR(weight * kept, all, 2e-3 * solid) << static_cast<int>(kind) << " at "
-                                                              << distance << " case " << i;
-                EXPECT_NEAR(weight * half, part, 1e-2 * solid) << static_cast<int>(kind) << " at "
-                                                               << distance << " case " << i;
+                EXPECT_NEAR(weight * kept, all, 2e-3 * solid)
+                    << static_cast<int>(kind) << " at " << distance << " case " << i;
+                EXPECT_NEAR(weight * half, part, 1e-2 * solid)
+                    << static_cast<int>(kind) << " at " << distance << " case " << i;
             }
         }
     }
@@ -128,9 +133,13 @@ TEST(SampleShape, IsEvenInSolidAngle) {
         std::array<double, 16> expected{}, found{};
         double all = 0.0;
         for (std::size_t cell = 0; cell < 16; ++cell) {
-            expected[cell] = integrate_area(c.shape, [&](const glm::dvec3& to) {
-                                 return glm::dvec3(cell_of(to) == cell ? 1.0 : 0.0);
-                             }, 1e-4).value.x;
+            expected[cell] = integrate_area(
+                                 c.shape,
+                                 [&](const glm::dvec3& to) {
+                                     return glm::dvec3(cell_of(to) == cell ? 1.0 : 0.0);
+                                 },
+                                 1e-4)
+                                 .value.x;
             all += expected[cell];
         }
         constexpr int kSamples = 40000;

@@ -54,8 +54,8 @@ AreaFrame area_frame(int lanes, int group, uint width = 33, int shading = SHADIN
     LightLists stages(gpu, tuning, features);
     const ListedLights lists = stages.run(lights, gbuffer, grid, timer);
     spoil_order(gpu, view, lists.clusters);
-    const ShadowInput input{random_casters(gpu), unmoved_view(),
-                            origins_of(gpu, features, gbuffer), 6.0f, 5};
+    const ShadowInput input{random_casters(gpu), unmoved_view(), origins_of(gpu, features, gbuffer),
+                            6.0f, 5};
     Visibility visibility(gpu, tuning, features, {});
     const SeenLights seen = visibility.enqueue(lists, gbuffer, input, timer);
     const std::size_t plane = std::size_t{view.stride} * view.height;

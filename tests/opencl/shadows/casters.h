@@ -62,7 +62,7 @@ inline ShadowCasters random_casters(const Gpu& gpu) {
 
 /// The surfaces' points themselves, a little before them.
 inline DeviceArray<float> origins_of(const Gpu& gpu, const KernelFeatures& features,
-                              const GBuffer& gbuffer) {
+                                     const GBuffer& gbuffer) {
     const std::vector<float> planes = decode(gpu, features, gbuffer).values;
     const std::size_t size = std::size_t{gbuffer.view.stride} * gbuffer.view.height;
     std::vector<float> origins(4 * size);

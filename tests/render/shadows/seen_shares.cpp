@@ -14,7 +14,8 @@
 namespace kilolux {
 namespace {
 
-constexpr int kCoarse = 48, kFine = 192;  // steps of the quadrature; fine ones where light is partial
+constexpr int kCoarse = 48,
+              kFine = 192;  // steps of the quadrature; fine ones where light is partial
 
 // The light in the camera's space.
 SceneLight in_view(SceneLight light, const Camera& camera) {
@@ -136,8 +137,8 @@ SharePixels seen_shares(const ShadowScenario& scenario, RenderSettings settings,
     Renderer off(scenario.scene, unshadowed);
     const Frame whole = off.render(scenario.camera, 0.0);
     SharePixels out;
-    out.pixels = true_shares(scenario, surface_samples(off.lit_surfaces().surfaces),
-                             settings.shading);
+    out.pixels =
+        true_shares(scenario, surface_samples(off.lit_surfaces().surfaces), settings.shading);
     mark_edges(out.pixels, settings.width);
     out.pictures = pictures;
     out.batches = pictures / batch;
@@ -153,26 +154,24 @@ SharePixels seen_shares(const ShadowScenario& scenario, RenderSettings settings,
             PixelSums& s = sums[i];
             const double all = luminance_of(whole.radiance, pixel.index);
             const double share = luminance_of(frame.radiance, pixel.index) / all;
-            const double estimated =
-                std::pow(frame.aovs.front().values[pixel.index] / all, 2.0);
+            const double estimated = std::pow(frame.aovs.front().values[pixel.index] / all, 2.0);
             s.sum += share;
             s.squares += share * share;
             s.estimated += estimated;
             s.batch_sum += share;
             s.batch_estimated += estimated;
             if (seed % batch != 0) continue;
-            pixel.batches_within += is_within(s.batch_sum / batch,
-                                              s.batch_estimated / (batch * batch), pixel.truth)
-                                        ? 1
-                                        : 0;
+            pixel.batches_within +=
+                is_within(s.batch_sum / batch, s.batch_estimated / (batch * batch), pixel.truth)
+                    ? 1
+                    : 0;
             s.batch_sum = s.batch_estimated = 0.0;
         }
     }
     for (std::size_t i = 0; i < sums.size(); ++i) {
         SharePixel& pixel = out.pixels[i];
         pixel.mean = sums[i].sum / pictures;
-        pixel.variance =
-            std::max(0.0, sums[i].squares - sums[i].sum * pixel.mean) / (pictures - 1);
+        pixel.variance = std::max(0.0, sums[i].squares - sums[i].sum * pixel.mean) / (pictures - 1);
         pixel.estimated = sums[i].estimated / pictures;
     }
     return out;
