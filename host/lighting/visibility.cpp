@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/lighting/visibility.h"
 
+#include <algorithm>
+
+#include "kernels/shared/evaluate_modes.h"
+
 namespace kilolux {
 namespace {
 
@@ -9,11 +13,15 @@ KernelFeatures without_shadows(KernelFeatures features) {
     return features;
 }
 
+// AREA_LOBES of kernels/shadows/shadow_bits.h.
+uint lobes_of(const KernelFeatures& features) { return features.shading == SHADING_PBR ? 2 : 1; }
+
 }  // namespace
 
 Visibility::Visibility(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
                        const SurfaceFeatures& surfaces)
-    : cast_(gpu, tuning, features, surfaces) {
+    : area_lobes_(features.sampled_shadows && features.area_lights ? lobes_of(features) : 0),
+      cast_(gpu, tuning, features, surfaces) {
     if (!features.sampled_shadows) return;
     draw_.emplace(gpu, tuning, features);
     unshadowed_.emplace(gpu, tuning, without_shadows(features));
@@ -32,12 +40,13 @@ SeenLights Visibility::enqueue(const ListedLights& lists, const GBuffer& gbuffer
     source_.reset();
     seen_ = {};  // arrays that grow must not be held twice
     const LitPixels lit = lists.at(gbuffer);
-    seen_.words = cast_.reserve(lists.lights, lists.clusters, timer);
+    const uint slots = std::max(area_lobes_ * area_slots(shadows.rays), 1u);
+    seen_.words = cast_.reserve(lists.lights, lists.clusters, timer, slots);
     if (draw_) {
         seen_.samples = {unshadowed_->enqueue(lit, timer).planes, shadows.rays, shadows.seed};
         draw_->enqueue(lit, seen_.words, seen_.samples, timer);
     }
-    cast_.enqueue(shadows, lit, seen_.words, timer);
+    cast_.enqueue(shadows, lit, seen_.words, timer, seen_.samples);
     source_ = source;
     return seen_;
 }
@@ -48,7 +57,7 @@ ShadowCounts Visibility::count(const ListedLights& lists, const GBuffer& gbuffer
     StageTimer untimed;
     const LitPixels lit = lists.at(gbuffer);
     if (draw_) draw_->enqueue(lit, seen.words, seen.samples, untimed);
-    counting.enqueue(shadows, lit, seen.words, untimed);
+    counting.enqueue(shadows, lit, seen.words, untimed, seen.samples);
     ShadowCounts out = counting.counts();
     out.words = cast_.words();
     return out;

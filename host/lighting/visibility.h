@@ -48,6 +48,7 @@ class Visibility {
         bool operator==(const Source&) const = default;
     };
 
+    uint area_lobes_;  // of lights with a size, whose rays are sampled; 0: there are none
     CastShadows cast_;
     std::optional<DrawShadows> draw_;  // with sampled shadows
     std::optional<Shade> unshadowed_;  // likewise

@@ -32,6 +32,7 @@ static inline LightSum source_sum(LightSource from, GBuffer g, ItemPlace at, Lit
     set.shadows.wanted = item.shown;
     set.directional = from.directional;
     load_origins(&points, 0u, from.origins, g.view.stride * g.view.height, item.pixels);
+    load_area_pixels(&points, 0u, g, item.pixels);
 #endif
 #if TINTED_SHADOWS
     set.tints.scene = tinting_scene(from.casters, from.tint_casters);

@@ -24,6 +24,7 @@
 #ifndef TINTED_SHADOWS
 #define TINTED_SHADOWS 0
 #endif
+#define AREA_SHADOWS (SAMPLED_SHADOWS && HAS_AREA_LIGHTS)
 #if SHADOWS == SHADOWS_BITS
 #include "kernels/shadows/shadow_bits.h"
 #endif
@@ -93,10 +94,21 @@ static inline LightSum select_sum(MASK mask, LightSum a, LightSum b) {
 }
 
 #if SHADOWS
+#if SHADOWS == SHADOWS_BITS
+// The first of the bits' places of a list's entry.
+static inline uint place_of_entry(LightSet set, uint entry) {
+#if SAMPLED_SHADOWS
+    return set.directional_count + entry * light_slots(set.pick.rays);
+#else
+    return set.directional_count + entry;
+#endif
+}
+#endif
+
 // The lanes that see the light of a list's entry.
 static inline MASK sees_entry(LightSet set, uint entry, uint light) {
 #if SHADOWS == SHADOWS_BITS
-    return sees_light(set.shadows, set.directional_count + entry);
+    return sees_light(set.shadows, place_of_entry(set, entry));
 #else
     return sees(set.shadows,
                 shadow_point_light(set.shadows.scene.view, LIGHT_AT(set.lights, light)));
@@ -115,8 +127,8 @@ static inline MASK sees_directional(LightSet set, uint i) {
 #if SHADOWS == SHADOWS_BITS
 // The lanes that pick the light and from which it is hidden, as cast_shadows' bits say.
 static inline MASK hides_drawn(LightSet set, uint entry, uint light) {
-    return sees_light(set.shadows,
-                      (light & PICKED_DIRECTIONAL) != 0u ? entry : set.directional_count + entry);
+    bool is_listed = (light & PICKED_DIRECTIONAL) == 0u;
+    return sees_light(set.shadows, is_listed ? place_of_entry(set, entry) : entry);
 }
 #else
 // The same; `one`: the light's sum alone.
@@ -138,17 +150,84 @@ static inline LightSum sampled_sum(LightSet set, MASK hidden, LightSum one, Ligh
     return add_hidden(sum, one, q, hidden);
 }
 
+#if AREA_SHADOWS
+static inline bool is_area(LightSet set, uint light) {
+    if ((light & PICKED_DIRECTIONAL) != 0u) return false;
+    return has_size(shape_of_light(set.extras, light));
+}
+
+// Hidden rays of a lobe of a light with a size that picks `pairs`.
+static inline HiddenRays hidden_rays(LightSet set, uint entry, uint light, uint lobe, FV pairs) {
+    uint first = lobe * area_slots(set.pick.rays);
+#if SHADOWS == SHADOWS_BITS
+    return count_hidden(set.shadows, place_of_entry(set, entry) + first, pairs);
+#else
+    HiddenRays out = {fv(0.0f), fv(0.0f)};
+    ShadowView view = set.shadows.scene.view;
+    ShadeLight row = LIGHT_AT(set.lights, light);
+    ShadowLight target =
+        with_shape(shadow_point_light(view, row), view, row.position_inv_range2,
+                   shape_of_light(set.extras, light), light_key(set.pick.tile, light));
+    MASK mine = set.shadows.wanted;
+    for (uint slot = 0; lane_any(mine & casts_slot(pairs, slot)); ++slot) {
+        target.area = at_slot(target.area, first + slot, set.pick.rays);
+        set.shadows.wanted = mine & casts_slot(pairs, slot);
+        out = add_hidden_ray(out, slot, set.shadows.wanted & ~sees(set.shadows, target));
+    }
+    return out;
+#endif
+}
+
+// sampled_sum() of a light with a size.
+static inline LightSum sampled_area(LightSet set, uint entry, uint light, LightSum one,
+                                    LightSum sum) {
+    for (uint lobe = 0; lobe < AREA_LOBES; ++lobe) {
+        LightSum part = lobe_part(one, lobe);
+        FV alone = light_alone(set.pick, part);
+        FV y = mean_pairs(set.pick, alone);
+        FV pairs = picked_pairs(set.pick, alone, light, lobe);
+        HiddenRays hidden = hidden_rays(set, entry, light, lobe, pairs);
+        MASK any = lane_mask(hidden.first + hidden.second > fv(0.0f));
+        if (!lane_any(any)) continue;
+        *set.variance += lane_select(any, area_variance(alone, y, pairs, hidden), fv(0.0f));
+        FV weight = lane_select(any, area_weight(y, pairs, hidden), fv(0.0f));
+        sum = add_weighted(sum, weight, part);
+    }
+    return sum;
+}
+
+#if SHADOWS == SHADOWS_BITS
+// Whether any ray to the light is hidden; only then its sum is needed.
+static inline bool hides_any(LightSet set, uint entry) {
+    uint bits = 0u;
+    uint first = place_of_entry(set, entry);
+    for (uint slot = 0; slot < light_slots(set.pick.rays); ++slot) {
+        bits |= set.shadows.words[(first + slot) * set.shadows.stride] >> set.shadows.shift;
+    }
+    return (bits & lane_ballot((MASK)(-1))) != 0u;
+}
+#else
+#define hides_any(set, entry) true
+#endif
+#define ADD_AREA(set, entry, light, sum, ONE)                                           \
+    if (is_area(set, light)) {                                                          \
+        if (hides_any(set, entry)) (sum) = sampled_area(set, entry, light, (ONE), sum); \
+    } else
+#else
+#define ADD_AREA(set, entry, light, sum, ONE)
+#endif
+
 // Adds a light that is hidden, which the estimate takes from the radiance if all are seen. ONE: its
 // sum alone, which bits need only where one is set.
 #if SHADOWS == SHADOWS_BITS
 #define ADD_SAMPLED(set, entry, light, sum, ONE)                            \
-    {                                                                       \
+    ADD_AREA(set, entry, light, sum, ONE) {                                 \
         MASK hidden = hides_drawn(set, entry, light);                       \
         if (lane_any(hidden)) (sum) = sampled_sum(set, hidden, (ONE), sum); \
     }
 #else
 #define ADD_SAMPLED(set, entry, light, sum, ONE)                          \
-    {                                                                     \
+    ADD_AREA(set, entry, light, sum, ONE) {                               \
         LightSum one = (ONE);                                             \
         MASK hidden = hides_drawn(set, entry, light, one);                \
         if (lane_any(hidden)) (sum) = sampled_sum(set, hidden, one, sum); \

@@ -17,36 +17,51 @@ static inline void put_seen(ShadowBits bits, uint j, MASK mine, MASK seen, globa
 #endif
 }
 
+// The bits of all slots of one light at the pixels rays.wanted. first: of the slots' words.
+static inline void cast_slots(ShadowRays rays, CastLights from, ShadowLight light, uint slots,
+                              uint first, ShadowBits bits, global uint* words) {
+    MASK mine = rays.wanted;
+    for (uint slot = 0; slot < slots;) {
+#if PICKED_ONLY
+        rays.wanted = mine & sees_light(bits, first + slot);  // the bits are those of picked lights
+        if (!lane_any(rays.wanted)) {
+            slot = next_lobe(from, slot);
+            continue;
+        }
+#endif
+        put_seen(bits, first + slot, mine, sees(rays, light_at_slot(from, light, slot)), words);
+        ++slot;
+    }
+}
+
 kernel void cast_shadows(
-    LIT_ARGS, SHADOW_ARGS, WORD_ARGS(),
+    LIT_ARGS, SHADOW_ARGS, WORD_ARGS(), SAMPLE_ARGS,
     global ShadowCounts* restrict counts) {  // out [work-items] with COUNT_SHADOWS, where the tile
                                              // has lights
     ItemPlace at = place_in_planes(view);
     if (!at.inside || word_offsets[at.tile] == word_offsets[at.tile + 1]) return;
     uint place = place_of_item(at.x, at.y);
     Clusters active = CLUSTERS_OF_ARGS;
+    CastLights from = CAST_LIGHTS_OF_ARGS;
+    uint key = key_of_tile(view, from, at.tile);
     ShadowPoints points;
     reset_counts(&points);
-    load_origins(&points, 0u, origins, view.stride * view.height,
-                 pixels_of_item(view, at.x, at.y, order));
-    ShadowRays rays;
-    rays.scene = SHADOW_SCENE_OF_ARGS;
-    rays.points = &points;
+    Pixels pixels = pixels_of_item(view, at.x, at.y, order);
+    load_origins(&points, 0u, origins, view.stride * view.height, pixels);
+    load_area_pixels(&points, 0u, GBUFFER_OF_ARGS, pixels);
+    ShadowRays walks;
+    walks.scene = SHADOW_SCENE_OF_ARGS;
+    walks.points = &points;
     FOR_EACH_CLUSTER(i, active, at.tile) {
         uint first = clusters[i].first_pixel;
         UV places = lane_numbers + place;
-        MASK mine = lane_mask(places >= (UV)(first)) &
-                    lane_mask(places < (UV)(first + clusters[i].pixel_count));
-        if (!lane_any(mine)) continue;
+        walks.wanted = lane_mask(places >= (UV)(first)) &
+                       lane_mask(places < (UV)(first + clusters[i].pixel_count));
+        if (!lane_any(walks.wanted)) continue;
         ShadowBits bits = bits_of_cluster(words + word_offsets[at.tile], clusters + i, place);
-        for (uint j = 0; j < directional_count + clusters[i].list_count; ++j) {
-            ShadowLight light = light_of_cluster(shadow, clusters + i, j, directional_lights,
-                                                 directional_count, lights, lists);
-            rays.wanted = mine;
-#if PICKED_ONLY
-            rays.wanted &= sees_light(bits, j);  // the bits are those of picked lights
-#endif
-            put_seen(bits, j, mine, sees(rays, light), words);
+        for (uint j = 0; j < count_of_cluster(from, clusters + i); ++j) {
+            ShadowLight light = light_of_cluster(from, shadow, clusters + i, j, key);
+            cast_slots(walks, from, light, slots_of(from, j), slots_before(from, j), bits, words);
         }
     }
 #if COUNT_SHADOWS

@@ -42,15 +42,17 @@ static inline uint this_item(void) { return get_local_id(0); }
 static inline uint place_of_point(uint first, uint k) { return first + k * GROUP + this_item(); }
 
 // The item's points of a cluster.
-static inline void load_points_of_item(global const float* origins, View view, uint tile,
+static inline void load_points_of_item(GBuffer g, global const float* origins, uint tile,
                                        global const uchar* order, uint first, uint end,
                                        ShadowPoints* points) {
+    View view = g.view;
     points->row_count = (end - first + GROUP - 1u) / GROUP;
 #pragma unroll
     for (uint k = 0; k < SHADOW_POINTS; ++k) {
         uint place = min(place_of_point(first, k), end - 1u);
-        load_origins(points, k, origins, view.stride * view.height,
-                     pixels_of_tile(view, tile, place, order));
+        Pixels pixels = pixels_of_tile(view, tile, place, order);
+        load_origins(points, k, origins, view.stride * view.height, pixels);
+        load_area_pixels(points, k, g, pixels);
     }
 }
 
@@ -88,8 +90,15 @@ static inline void set_up_found(ShadowScene scene, ShadowLight light, Shaft shaf
                                 local GroupWalk* walk) {
     FV3 v[3];
     load_casters(scene, &child, v);
+#if AREA_SHADOWS
+    if (light.is_area) {
+        if (!lane_any(may_part(shaft, light, v))) return;
+        walk->forms[atomic_inc(&walk->tested)][0].x = as_float(child);
+        return;
+    }
+#endif
     MASK sure;
-    ShadowTriangles t = set_up_shadow(v, light, scene.view.extent, &sure);
+    ShadowTriangles t = set_up_shadow(v, shared_light(light), scene.view.extent, &sure);
     if (!lane_any(sure & may_shade(shaft, &t))) return;
     local float4* to = walk->forms[atomic_inc(&walk->tested)];
     for (uint i = 0; i < 3; ++i) to[i] = float4_of(t.edge[i]);
@@ -130,7 +139,7 @@ static inline bool shade_points(ShadowScene scene, ShadowLight light, local cons
                 FV3 v[3];
                 uint child = as_uint(f[4].w);
                 load_casters(scene, &child, v);
-                shaded = passes_box(light, load_points(points, k), boxes_of(v));
+                shaded = passes_box(shared_light(light), load_points(points, k), boxes_of(v));
             }
 #if HAS_MASKED_CASTERS
             if (shaded && (as_uint(f[4].w) & SHADOW_MASKED) != 0u) {
@@ -146,6 +155,32 @@ static inline bool shade_points(ShadowScene scene, ShadowLight light, local cons
     return lane_any(any);
 }
 
+#if AREA_SHADOWS
+// The same for a light with a size.
+static inline bool shade_point_targets(ShadowScene scene, ShadowLight light,
+                                       local const GroupWalk* walk, ShadowPoints* points) {
+    LaneLight at = shared_light(light);
+    MASK any = 1;
+    for (uint j = 0; lane_any(any) && j < walk->tested; ++j) {
+        uint child = as_uint(walk->forms[j][0].x);
+        FV3 v[3];
+        load_casters(scene, &child, v);
+        any = 0;
+#pragma unroll
+        for (uint k = 0; k < SHADOW_POINTS; ++k) {
+            if (k >= points->row_count) continue;  // the same for all items
+            MASK lit = lit_of(points, k);
+            ADD_COUNT(points, points, lane_count(lit));
+            at.at = load_edge_points(points, k);
+            lit &= ~hidden_by(v, child, scene, at, load_points(points, k), lit);
+            points->lit[k] = as_float(lit);
+            any |= lit;
+        }
+    }
+    return lane_any(any);
+}
+#endif
+
 // Tests what was found, GROUP triangles at a time.
 static inline void test_found(ShadowScene scene, ShadowLight light, Shaft shaft, uint count,
                               local GroupWalk* walk, ShadowPoints* points) {
@@ -159,7 +194,13 @@ static inline void test_found(ShadowScene scene, ShadowLight light, Shaft shaft,
         uint i = first + this_item();
         if (i < count) set_up_found(scene, light, shaft, walk->found[i], walk);
         barrier(CLK_LOCAL_MEM_FENCE);  // all are set up
-        if (shade_points(scene, light, walk, points)) walk->lit = 1u;
+#if AREA_SHADOWS
+        bool lit = light.is_area ? shade_point_targets(scene, light, walk, points)
+                                 : shade_points(scene, light, walk, points);
+#else
+        bool lit = shade_points(scene, light, walk, points);
+#endif
+        if (lit) walk->lit = 1u;
         barrier(CLK_LOCAL_MEM_FENCE);  // all have tested
     }
 }
@@ -267,7 +308,7 @@ static inline void cast_light(ShadowScene scene, ShadowLight light, uint first, 
 #if PICKED_ONLY
         mine &= lane_mask(place < end && (words[place / 32u - first / 32u] >> place % 32u & 1u));
 #endif
-        MASK lit = face_light(points, k, light, mine);
+        MASK lit = face_light(scene.view, points, k, light, mine);
         any |= lane_any(lit);
         rays += lane_count(lit);
     }
@@ -289,12 +330,13 @@ static inline void cast_light(ShadowScene scene, ShadowLight light, uint first, 
         if (place < end) seen += lane_count(lit_of(points, k));
     }
     count_rays(points, tests_before, rays, seen);
-    barrier(CLK_LOCAL_MEM_FENCE);  // all flags are set
+    // All flags are set, and all have read the words.
+    barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
     store_words(first, end, walk, words);
 }
 
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cast_shadows(
-    LIT_ARGS, SHADOW_ARGS, WORD_ARGS(),
+    LIT_ARGS, SHADOW_ARGS, WORD_ARGS(), SAMPLE_ARGS,
     global ShadowCounts* restrict counts) {  // out [tiles * SPLIT] with COUNT_SHADOWS, where the
                                              // tile has lights
     local GroupWalk walk;
@@ -302,20 +344,32 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cast_shadows(
     if (word_offsets[tile] == word_offsets[tile + 1]) return;
     ShadowScene scene = SHADOW_SCENE_OF_ARGS;
     Clusters active = CLUSTERS_OF_ARGS;
+    CastLights from = CAST_LIGHTS_OF_ARGS;
+    uint key = key_of_tile(view, from, tile);
     ShadowPoints points;
     reset_counts(&points);
     FOR_EACH_CLUSTER(i, active, tile) {
         uint first = clusters[i].first_pixel;
         uint last = first + clusters[i].pixel_count;
-        load_points_of_item(origins, view, tile, order, first, last, &points);
+        load_points_of_item(GBUFFER_OF_ARGS, origins, tile, order, first, last, &points);
         find_box(&points, &walk);
         global uint* out = words + word_offsets[tile] + clusters[i].first_word;
-        for (uint j = get_group_id(0) % SPLIT; j < directional_count + clusters[i].list_count;
+        uint count = shadow_words(first, last);
+        for (uint j = get_group_id(0) % SPLIT; j < count_of_cluster(from, clusters + i);
              j += SPLIT) {
-            ShadowLight light = light_of_cluster(shadow, clusters + i, j, directional_lights,
-                                                 directional_count, lights, lists);
-            cast_light(scene, light, first, last, &walk, &points,
-                       out + j * shadow_words(first, last));
+            ShadowLight light = light_of_cluster(from, shadow, clusters + i, j, key);
+            global uint* slot_words = out + slots_before(from, j) * count;
+            for (uint slot = 0; slot < slots_of(from, j);) {
+#if PICKED_ONLY
+                if (!any_word(slot_words + slot * count, count)) {  // the same for all items
+                    slot = next_lobe(from, slot);
+                    continue;
+                }
+#endif
+                cast_light(scene, light_at_slot(from, light, slot), first, last, &walk, &points,
+                           slot_words + slot * count);
+                ++slot;
+            }
         }
     }
 #if COUNT_SHADOWS

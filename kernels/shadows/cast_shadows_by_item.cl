@@ -10,12 +10,14 @@
 #include "kernels/shadows/shadow_cast.h"
 
 // The tile's pixels in the order of its clusters, as many as the planes have.
-static inline void load_tile(global const float* origins, View view, uint tile,
+static inline void load_tile(GBuffer g, global const float* origins, uint tile,
                              global const uchar* order, ShadowPoints* points) {
+    View view = g.view;
     uint count = rows_of_tile(view, tile / fine_tiles_x(view)) * FINE_TILE;
     for (uint row = 0; row < count / VW; ++row) {
-        load_origins(points, row, origins, view.stride * view.height,
-                     pixels_of_tile(view, tile, row * VW, order));
+        Pixels pixels = pixels_of_tile(view, tile, row * VW, order);
+        load_origins(points, row, origins, view.stride * view.height, pixels);
+        load_area_pixels(points, row, g, pixels);
     }
 }
 
@@ -27,54 +29,112 @@ static inline MASK drawn_lanes(global const uint* words, uint first, uint row) {
 }
 #endif
 
-// One light's bits of one cluster: its pixels in the tile's order are first .. end - 1.
-static inline void cast_light(ShadowScene scene, ShadowLight light, uint first, uint end,
-                              ShadowPoints* points, global uint* words) {
-    uint first_row = first / VW;
-    uint end_row = (end + VW - 1) / VW;
+// Bits of a light in the words of a cluster whose pixels are first .. end - 1 in the tile's order.
+typedef struct ClusterBits {
+    uint first, end;
+    global uint* words;
+} ClusterBits;
+
+static inline MASK wanted_lanes(ClusterBits bits, uint row) {
+    UV place = lane_numbers + row * VW;
+    MASK mine = lane_mask(place >= (UV)(bits.first)) & lane_mask(place < (UV)(bits.end));
 #if PICKED_ONLY
-    uint picked = 0u;
-    for (uint word = 0; word < shadow_words(first, end); ++word) picked |= words[word];
-    if (picked == 0u) return;
+    mine &= drawn_lanes(bits.words, bits.first, row);
 #endif
+    return mine;
+}
+
+// Sets the bits of lit points, of words that are 0; or clears them in those of picked lights. The
+// number of lit points.
+static inline uint put_lit(ClusterBits bits, uint first_row, uint end_row,
+                           const ShadowPoints* points) {
+    uint seen = 0;
+    for (uint row = first_row; row < end_row; ++row) {
+        uint lit = lane_ballot(lit_of(points, row)) << (row * VW % 32u);
+        seen += popcount(lit);
+#if PICKED_ONLY
+        bits.words[row * VW / 32u - bits.first / 32u] &= ~lit;
+#else
+        bits.words[row * VW / 32u - bits.first / 32u] |= lit;
+#endif
+    }
+    return seen;
+}
+
+// One light's bits, of one slot. Whether the rays' shaft met any triangle's box.
+static inline bool cast_light(ShadowScene scene, ShadowLight light, ClusterBits bits,
+                              ShadowPoints* points) {
+    uint first_row = bits.first / VW;
+    uint end_row = (bits.end + VW - 1) / VW;
     ulong tests_before = counted_tests(points);
-    uint rays = 0, seen = 0;
-    LaneBox box = {splat3((float3)(SHADOW_NOWHERE)), splat3((float3)(-SHADOW_NOWHERE))};
+    uint rays = 0;
+    LaneBox box = no_box();
+    bool is_first = false;
+#if AREA_SHADOWS
+    // The first slot's shaft is that of all pixels to the whole light.
+    LaneBox ends = no_box();
+    is_first = light.is_area && light.area.slot == 0u;
+#endif
     MASK any = (MASK)(0);
     for (uint row = first_row; row < end_row; ++row) {
-        UV place = lane_numbers + row * VW;
-        MASK mine = lane_mask(place >= (UV)(first)) & lane_mask(place < (UV)(end));
-#if PICKED_ONLY
-        mine &= drawn_lanes(words, first, row);
+        MASK wanted = wanted_lanes(bits, row);
+        MASK lit = face_light(scene.view, points, row, light, wanted);
+        box = grown_box(box, is_first ? wanted : lit, load_points(points, row));
+#if AREA_SHADOWS
+        if (light.is_area) ends = grown_box(ends, lit, load_edge_points(points, row));
 #endif
-        MASK lit = face_light(points, row, light, mine);
-        box = grown_box(box, lit, load_points(points, row));
         any |= lit;
         rays += lane_count(lit);
     }
+#if AREA_SHADOWS
+    if (light.is_area && !is_first) {
+        light.area.low = box_low(ends);
+        light.area.high = box_high(ends);
+    }
+#endif
+    bool met = false;
     if (lane_any(any)) {
-        float3 low = (float3)(lane_min(box.low.x), lane_min(box.low.y), lane_min(box.low.z));
-        float3 high = (float3)(lane_max(box.high.x), lane_max(box.high.y), lane_max(box.high.z));
-        cast_shadows_of(scene, light, low, high, first_row, end_row, points);
+        met =
+            cast_shadows_of(scene, light, box_low(box), box_high(box), first_row, end_row, points);
     }
 #if !PICKED_ONLY
-    for (uint word = 0; word < shadow_words(first, end); ++word) words[word] = 0u;
+    uint count = shadow_words(bits.first, bits.end);
+    for (uint word = 0; word < count; ++word) bits.words[word] = 0u;
 #endif
-    if (!lane_any(any)) return;
-    for (uint row = first_row; row < end_row; ++row) {
-        uint bits = lane_ballot(lit_of(points, row)) << (row * VW % 32u);
-        seen += popcount(bits);
-#if PICKED_ONLY
-        words[row * VW / 32u - first / 32u] &= ~bits;
+    if (!lane_any(any)) return true;
+    count_rays(points, tests_before, rays, put_lit(bits, first_row, end_row, points));
+    return met;
+}
+
+// One light's bits, of all slots.
+static inline void cast_slots(ShadowScene scene, CastLights from, ShadowLight light, uint slots,
+                              ClusterBits bits, ShadowPoints* points) {
+#if !PICKED_ONLY
+    cast_light(scene, light, bits, points);
 #else
-        words[row * VW / 32u - first / 32u] |= bits;
-#endif
+    global uint* words = bits.words;
+    uint count = shadow_words(bits.first, bits.end);
+    bool met = true;
+    for (uint slot = 0; slot < slots;) {
+        bits.words = words + slot * count;
+        bool begins = slot == 0u || next_lobe(from, slot - 1u) == slot;
+        if (begins) met = true;
+        if (!any_word(bits.words, count)) {
+            slot = next_lobe(from, slot);
+            continue;
+        }
+        if (met) {
+            met = cast_light(scene, light_at_slot(from, light, slot), bits, points) || !begins;
+        } else {  // the shaft from these pixels to the whole light is empty
+            for (uint word = 0; word < count; ++word) bits.words[word] = 0u;
+        }
+        ++slot;
     }
-    count_rays(points, tests_before, rays, seen);
+#endif
 }
 
 kernel __attribute__((reqd_work_group_size(1, 1, 1))) void cast_shadows(
-    LIT_ARGS, SHADOW_ARGS, WORD_ARGS(),
+    LIT_ARGS, SHADOW_ARGS, WORD_ARGS(), SAMPLE_ARGS,
     global ShadowCounts* restrict counts) {  // out [tiles] with COUNT_SHADOWS, where the tile has
                                              // lights
     uint tile = get_global_id(0);
@@ -83,18 +143,18 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void cast_shadows(
     Clusters active = CLUSTERS_OF_ARGS;
     ShadowPoints points;
     reset_counts(&points);
-    load_tile(origins, view, tile, order, &points);
-    global uint* out = words + word_offsets[tile];
-    uint first = 0;
+    load_tile(GBUFFER_OF_ARGS, origins, tile, order, &points);
+    CastLights from = CAST_LIGHTS_OF_ARGS;
+    uint key = key_of_tile(view, from, tile);
+    ClusterBits bits = {0u, 0u, words + word_offsets[tile]};
     FOR_EACH_CLUSTER(i, active, tile) {
-        uint last = first + clusters[i].pixel_count;
-        for (uint j = 0; j < directional_count + clusters[i].list_count; ++j) {
-            ShadowLight light = light_of_cluster(shadow, clusters + i, j, directional_lights,
-                                                 directional_count, lights, lists);
-            cast_light(scene, light, first, last, &points, out);
-            out += shadow_words(first, last);
+        bits.end = bits.first + clusters[i].pixel_count;
+        for (uint j = 0; j < count_of_cluster(from, clusters + i); ++j) {
+            ShadowLight light = light_of_cluster(from, shadow, clusters + i, j, key);
+            cast_slots(scene, from, light, slots_of(from, j), bits, &points);
+            bits.words += slots_of(from, j) * shadow_words(bits.first, bits.end);
         }
-        first = last;
+        bits.first = bits.end;
     }
 #if COUNT_SHADOWS
     counts[tile] = points.counts;

@@ -21,6 +21,15 @@ static inline void put_bits(ShadowBits bits, uint i, MASK picked, global uint* w
     atomic_or(words + (bits.words - words) + i * bits.stride, lane_ballot(picked) << bits.shift);
 }
 
+#if HAS_AREA_LIGHTS
+// The bits of a lobe's slots, from `first` on.
+static inline void put_slots(ShadowBits bits, uint first, MASK mine, FV pairs, global uint* words) {
+    for (uint slot = 0; lane_any(mine & casts_slot(pairs, slot)); ++slot) {
+        put_bits(bits, first + slot, mine & casts_slot(pairs, slot), words);
+    }
+}
+#endif
+
 kernel void draw_shadows(LIT_ARGS, WORD_ARGS(), SAMPLE_ARGS) {
     BEGIN_ORDERED_ITEM;
     Surface s = load_surface(g, item.pixels, item.z);
@@ -41,7 +50,17 @@ kernel void draw_shadows(LIT_ARGS, WORD_ARGS(), SAMPLE_ARGS) {
             uint light = lists[clusters[i].list_begin + j];
             LightSum one = EVALUATE(zero_sum(), p, LIGHT_AT(lights, light), extras, light);
             FV alone = light_alone(pick, one);
-            put_bits(bits, directional_count + j, mine & picks_light(pick, alone, light), words);
+            uint first = directional_count + j * light_slots(rays);
+#if HAS_AREA_LIGHTS
+            if (has_size(shape_of_light(extras, light))) {
+                for (uint lobe = 0; lobe < AREA_LOBES; ++lobe, first += area_slots(rays)) {
+                    FV part = light_alone(pick, lobe_part(one, lobe));
+                    put_slots(bits, first, mine, picked_pairs(pick, part, light, lobe), words);
+                }
+                continue;
+            }
+#endif
+            put_bits(bits, first, mine & picks_light(pick, alone, light), words);
         }
     }
 }

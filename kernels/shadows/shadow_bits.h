@@ -4,6 +4,22 @@
 #define KILOLUX_DEVICE_SHADOW_BITS_H
 #include "kernels/device/lanes.h"
 #include "kernels/shared/clusters.h"
+#include "kernels/shared/evaluate_modes.h"
+#include "kernels/shared/light_extras.h"
+#include "kernels/shared/shadow.h"
+
+// Lobes of a light with a size that have rays of their own: diffuse and, with SHADING_PBR, glossy.
+#if SHADING == SHADING_PBR
+#define AREA_LOBES 2u
+#else
+#define AREA_LOBES 1u
+#endif
+// Slots of a light of a list, for its rays; one unless sampled shadows have area lights.
+#if HAS_AREA_LIGHTS
+#define light_slots(rays) (AREA_LOBES * area_slots(rays))
+#else
+#define light_slots(rays) 1u
+#endif
 
 // Words for each light of a cluster whose pixels are first .. end - 1 in the tile's order.
 static inline uint shadow_words(uint first, uint end) { return (end + 31u) / 32u - first / 32u; }

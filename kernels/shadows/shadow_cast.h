@@ -4,142 +4,14 @@
 #ifndef KILOLUX_DEVICE_SHADOW_CAST_H
 #define KILOLUX_DEVICE_SHADOW_CAST_H
 #include "kernels/device/prefetch.h"
+#include "kernels/shadows/area_cast.h"
 #include "kernels/shadows/masked_caster.h"
+#include "kernels/shadows/shadow_points.h"
+#include "kernels/shadows/shadow_scene.h"
 #include "kernels/shadows/shadow_shaft.h"
 
 // Most triangles that wait for their test: whole vectors, and room for a node's children.
 #define SHADOW_BATCH 64
-
-// Whether walks count nodes, triangles and rays in ShadowPoints: for measurements.
-#ifndef COUNT_SHADOWS
-#define COUNT_SHADOWS 0
-#endif
-#if COUNT_SHADOWS
-#define ADD_COUNT(points, name, number) (points)->counts.name += (ulong)(number)
-#else
-#define ADD_COUNT(points, name, number)
-#endif
-
-// Whether walks may sum what surfaces let through, at one row of points.
-#ifndef TINTED_SHADOWS
-#define TINTED_SHADOWS 0
-#endif
-#if TINTED_SHADOWS
-#include "kernels/shadows/shadow_tint.h"
-#endif
-
-// The shadow casters.
-typedef struct ShadowScene {
-    global const ShadowNode* nodes;  // 0: the root
-    global const float* casters;     // [][3][3]
-    MaskedScene masked;
-    ShadowView view;
-#if TINTED_SHADOWS
-    bool tints;  // the triangles tint light and hide no points
-    global const TintCaster* tint_casters;
-#endif
-} ShadowScene;
-#define SHADOW_SCENE_OF_ARGS \
-    ((ShadowScene){shadow_nodes, casters, {masked_casters, materials, {textures, texels}}, shadow})
-
-#if TINTED_SHADOWS
-// The surfaces that tint light, of the same casters.
-static inline ShadowScene tinting_scene(ShadowScene scene, global const TintCaster* casters) {
-    scene.tint_casters = casters;
-    scene.nodes += scene.view.tint_root;
-    scene.tints = true;
-    return scene;
-}
-#endif
-
-// Points in rows of VW.
-typedef struct ShadowPoints {
-    float x[SHADOW_POINTS], y[SHADOW_POINTS], z[SHADOW_POINTS];  // [m]
-    float nx[SHADOW_POINTS], ny[SHADOW_POINTS], nz[SHADOW_POINTS];
-    // The points in the coordinates of edges' forms, see ShadowForm.
-    float ex[SHADOW_POINTS], ey[SHADOW_POINTS], ez[SHADOW_POINTS];
-    float lit[SHADOW_POINTS];        // masks in the bits of floats
-    uchar rows[SHADOW_POINTS / VW];  // those with lit points
-    uint row_count;
-#if TINTED_SHADOWS
-    TintSums tints;  // of row 0
-#endif
-#if COUNT_SHADOWS
-    ShadowCounts counts;
-#endif
-} ShadowPoints;
-
-static inline void reset_counts(ShadowPoints* points) {
-#if COUNT_SHADOWS
-    points->counts = (ShadowCounts){0, 0, 0, 0, 0, 0, 0, 0};
-#endif
-}
-
-static inline uint lane_count(MASK mask) { return popcount(lane_ballot(mask)); }
-
-static inline void load_origins(ShadowPoints* to, uint row, global const float* origins, uint plane,
-                                Pixels pixels) {
-    uint at = row * VW;
-    lane_store(LOAD_PLANE(FV, origins + ORIGIN_X * plane, pixels), to->x + at);
-    lane_store(LOAD_PLANE(FV, origins + ORIGIN_Y * plane, pixels), to->y + at);
-    lane_store(LOAD_PLANE(FV, origins + ORIGIN_Z * plane, pixels), to->z + at);
-    FV3 n = unpacked_normal(LOAD_PLANE(FV, origins + ORIGIN_NORMAL * plane, pixels));
-    lane_store(n.x, to->nx + at);
-    lane_store(n.y, to->ny + at);
-    lane_store(n.z, to->nz + at);
-}
-
-// A box that grows.
-typedef struct LaneBox {
-    FV3 low, high;
-} LaneBox;
-
-static inline LaneBox grown_box(LaneBox box, MASK mask, FV3 p) {
-    box.low =
-        select3(mask, fv3(min(box.low.x, p.x), min(box.low.y, p.y), min(box.low.z, p.z)), box.low);
-    box.high = select3(mask, fv3(max(box.high.x, p.x), max(box.high.y, p.y), max(box.high.z, p.z)),
-                       box.high);
-    return box;
-}
-
-// Begins a light: finds the points of row `row` that it could reach. The eye must see the side of
-// the triangle that the light is on; beyond the range, and a little more, there is no light to
-// hide.
-static inline MASK face_light(ShadowPoints* points, uint row, ShadowLight light, MASK wanted) {
-    uint at = row * VW;
-    FV3 p = fv3(lane_load(points->x + at), lane_load(points->y + at), lane_load(points->z + at));
-    FV3 n = fv3(lane_load(points->nx + at), lane_load(points->ny + at), lane_load(points->nz + at));
-    FV3 e = p;
-    MASK lit = wanted;
-    if (light.is_direction) {
-        lit &= lane_mask(dot3(n, splat3(light.at)) > fv(0.0f));
-    } else {
-        FV3 d = sub3(p, splat3(light.at));
-        lit &= lane_mask(dot3(n, d) < fv(0.0f)) &
-               lane_mask(dot3(d, d) * light.inv_range2 < fv(1.001f));
-        e = scale3(d, fv(1.0f) / max(size3(d), fv(1e-30f)));
-    }
-    lane_store(e.x, points->ex + at);
-    lane_store(e.y, points->ey + at);
-    lane_store(e.z, points->ez + at);
-    lane_store(KX_CONCAT(as_, FV)(lit), points->lit + at);
-    return lit;
-}
-
-static inline MASK lit_of(const ShadowPoints* points, uint row) {
-    return KX_CONCAT(as_, IV)(lane_load(points->lit + row * VW));
-}
-
-static inline FV3 load_edge_points(const ShadowPoints* points, uint row) {
-    uint at = row * VW;
-    return fv3(lane_load(points->ex + at), lane_load(points->ey + at), lane_load(points->ez + at));
-}
-static inline FV3 load_points(const ShadowPoints* points, uint row) {
-    uint at = row * VW;
-    return fv3(lane_load(points->x + at), lane_load(points->y + at), lane_load(points->z + at));
-}
-
-static inline uint lowest_bit(uint bits) { return 31u - clz(bits & -bits); }
 
 // The forms of VW triangles: g.x, g.y, g.z, c of the three edges and of the plane, each in all
 // lanes; the edges' units; and the boxes' middles and half edges.
@@ -203,7 +75,7 @@ static inline MASK lit_by_row(const FoundTriangles* found, ShadowScene scene, Sh
         MASK shaded = lane_mask(min(min(u0, u1), min(u2, behind)) >= fv(-1.0f)) & lit;
         if (!lane_any(shaded)) continue;
         LaneBoxes box = {row3_of(&found->forms, 19, lane), row3_of(&found->forms, 22, lane)};
-        shaded &= passes_box(light, point, box);
+        shaded &= passes_box(shared_light(light), point, box);
 #if TINTED_SHADOWS || HAS_MASKED_CASTERS
         uint child = found->children[lane];
         CasterWeights w =
@@ -255,41 +127,22 @@ static inline void find_lit_rows(ShadowPoints* points, uint first, uint end) {
     points->row_count = count;
 }
 
-static inline uint caster_of(ShadowScene scene, uint child) {
-    uint number = child & SHADOW_NUMBER;
-#if TINTED_SHADOWS
-    if (scene.tints) return scene.tint_casters[number].triangle;
-#endif
-#if HAS_MASKED_CASTERS
-    if ((child & SHADOW_MASKED) != 0u) return scene.masked.casters[number].triangle;
-#endif
-    return number;
-}
-
-// Corners of VW triangles.
-static inline void load_casters(ShadowScene scene, const uint* children, FV3* v) {
-    float corner[9][VW];
-#pragma unroll
-    for (uint lane = 0; lane < VW; ++lane) {
-        global const float* t = scene.casters + (ulong)caster_of(scene, children[lane]) * 9u;
-        for (uint i = 0; i < 9; ++i) corner[i][lane] = t[i];
-    }
-    for (uint i = 0; i < 3; ++i) {
-        v[i] = fv3(lane_load(corner[3 * i]), lane_load(corner[3 * i + 1]),
-                   lane_load(corner[3 * i + 2]));
-    }
-}
-
 // Tests the triangles that the walk found. `found` has room for whole vectors.
 static inline void shade_found(ShadowScene scene, ShadowLight light, Shaft shaft, uint* found,
                                uint count, ShadowPoints* points) {
     ADD_COUNT(points, triangles, count);
     for (uint i = count; i < (count + VW - 1) / VW * VW; ++i) found[i] = found[count - 1];
+#if AREA_SHADOWS
+    if (light.is_area) {
+        shade_found_targets(scene, light, shaft, found, count, points);
+        return;
+    }
+#endif
     for (uint first = 0; first < count; first += VW) {
         FV3 v[3];
         load_casters(scene, found + first, v);
         MASK sure;
-        ShadowTriangles t = set_up_shadow(v, light, scene.view.extent, &sure);
+        ShadowTriangles t = set_up_shadow(v, shared_light(light), scene.view.extent, &sure);
         MASK may = sure & may_shade(shaft, &t) & lane_mask(lane_numbers < (UV)(count - first));
         if (!lane_any(may)) continue;
         FoundTriangles triangles;
@@ -325,8 +178,9 @@ static inline ulong counted_tests(const ShadowPoints* points) {
 }
 
 // Clears the lit flag of each point that a triangle hides from the light, in the rows first .. end
-// - 1, which face_light() began. low, high: box of the lit points.
-static inline void cast_shadows_of(ShadowScene scene, ShadowLight light, float3 low, float3 high,
+// - 1, which face_light() began. low, high: box of the lit points. Whether the shaft met any
+// triangle's box.
+static inline bool cast_shadows_of(ShadowScene scene, ShadowLight light, float3 low, float3 high,
                                    uint first, uint end, ShadowPoints* points) {
     ADD_COUNT(points, shafts, 1);
     Shaft shaft = make_shaft(light, low, high);
@@ -334,6 +188,7 @@ static inline void cast_shadows_of(ShadowScene scene, ShadowLight light, float3 
     uint found[SHADOW_BATCH + SHADOW_WIDTH];
     uint top = 1;
     uint count = 0;
+    bool met = false;
     stack[0] = 0;
     find_lit_rows(points, first, end);
     while (top > 0u && points->row_count > 0u) {
@@ -354,7 +209,9 @@ static inline void cast_shadows_of(ShadowScene scene, ShadowLight light, float3 
         if (count > SHADOW_BATCH - SHADOW_WIDTH || (top == 0u && count > 0u)) {
             shade_found(scene, light, shaft, found, count, points);
             count = 0;
+            met = true;
         }
     }
+    return met;
 }
 #endif

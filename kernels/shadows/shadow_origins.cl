@@ -33,10 +33,6 @@ static inline OriginPlane plane_of(global const float* triangle) {
     return out;
 }
 
-static inline FV lane_shadow_row(float4 row, FV3 p) {
-    return fma(fv(row.z), p.z, fma(fv(row.y), p.y, fma(fv(row.x), p.x, fv(row.w))));
-}
-
 // The direction to the eye: of each pixel, or the same for all in a parallel view.
 static inline FV3 towards_eye(View view, ShadowView shadow, FV3 p) {
     if (view.orthographic != 0u) {
@@ -57,9 +53,7 @@ kernel void shadow_origins(
     MASK shown = lane_mask(id != (UV)(0u)) & item.shown;
     if (!lane_any(shown)) return;
     FV3 v = load_position(g, item.pixels, item.z);
-    FV3 p = fv3(lane_shadow_row(shadow.shadow_from_view[0], v),
-                lane_shadow_row(shadow.shadow_from_view[1], v),
-                lane_shadow_row(shadow.shadow_from_view[2], v));
+    FV3 p = lane_shadow_point(shadow, v, 1.0f);
     FV3 to_eye = towards_eye(view, shadow, p);
     FV3 out = p;
     FV3 normal = to_eye;

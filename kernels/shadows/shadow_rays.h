@@ -15,15 +15,19 @@ typedef struct ShadowRays {
 
 // Walks for the points `lit`, which face_light() began.
 static inline void walk_to(ShadowRays rays, ShadowLight light, MASK lit) {
-    LaneBox box = {splat3((float3)(SHADOW_NOWHERE)), splat3((float3)(-SHADOW_NOWHERE))};
-    box = grown_box(box, lit, load_points(rays.points, 0u));
-    float3 low = (float3)(lane_min(box.low.x), lane_min(box.low.y), lane_min(box.low.z));
-    float3 high = (float3)(lane_max(box.high.x), lane_max(box.high.y), lane_max(box.high.z));
-    cast_shadows_of(rays.scene, light, low, high, 0u, 1u, rays.points);
+    LaneBox box = grown_box(no_box(), lit, load_points(rays.points, 0u));
+#if AREA_SHADOWS
+    if (light.is_area) {
+        LaneBox ends = grown_box(no_box(), lit, load_edge_points(rays.points, 0u));
+        light.area.low = box_low(ends);
+        light.area.high = box_high(ends);
+    }
+#endif
+    cast_shadows_of(rays.scene, light, box_low(box), box_high(box), 0u, 1u, rays.points);
 }
 
 static inline MASK sees(ShadowRays rays, ShadowLight light) {
-    MASK lit = face_light(rays.points, 0u, light, rays.wanted);
+    MASK lit = face_light(rays.scene.view, rays.points, 0u, light, rays.wanted);
     if (!lane_any(lit)) return lit;
     ulong tests_before = counted_tests(rays.points);
     uint count = lane_count(lit);
@@ -38,7 +42,7 @@ static inline MASK sees(ShadowRays rays, ShadowLight light) {
 // tinting_scene().
 static inline MASK tinted(ShadowRays rays, ShadowLight light, FV3* share) {
     rays.points->tints = (TintSums){(UV)(0u), (UV)(0u), (UV)(0u)};
-    MASK lit = face_light(rays.points, 0u, light, rays.wanted);
+    MASK lit = face_light(rays.scene.view, rays.points, 0u, light, rays.wanted);
     if (rays.scene.view.tint_root != 0u && lane_any(lit)) walk_to(rays, light, lit);
     TintSums sums = rays.points->tints;
     *share = fv3(share_of_units(sums.red), share_of_units(sums.green), share_of_units(sums.blue));

@@ -3,9 +3,11 @@
 //
 // For a light at o and points in [o + l, o + h] the shaft is their convex hull. It meets a child's
 // box [L, H] exactly where some t in [0, 1] has t l <= H - o and t h >= L - o on all axes: each is
-// an interval of t. For a directional light the box itself moves along its direction: t d <= H - l
-// and t d >= L - h, with t unbounded. The shaft is wider by SHADOW_PAD of its coordinates at both
-// ends, which is more than what float32 and shadow_triangle.h's units need.
+// an interval of t. For a light in the box [a, b] the same holds with t l <= H - a and t h >= L -
+// b, l and h being the differences of the boxes' low and high ends. For a directional light the box
+// itself moves along its direction: t d <= H - l and t d >= L - h, with t unbounded. The shaft is
+// wider by SHADOW_PAD of its coordinates at both ends, which is more than what float32 and
+// shadow_triangle.h's units need.
 #ifndef KILOLUX_DEVICE_SHADOW_SHAFT_H
 #define KILOLUX_DEVICE_SHADOW_SHAFT_H
 #include "kernels/shadows/shadow_triangle.h"
@@ -44,11 +46,19 @@ static inline Shaft make_shaft(ShadowLight light, float3 low, float3 high) {
         out.x_high = high;
         out.longest = 1.0f;
     } else {
-        float pad = fmax(size, largest3(light.at)) * (2.0f * SHADOW_PAD);
-        out.at_low = light.at - pad;
-        out.at_high = light.at + pad;
-        out.x_low = low - light.at;
-        out.x_high = high - light.at;
+        float3 light_low = light.at, light_high = light.at;
+#if AREA_SHADOWS
+        if (light.is_area) {
+            light_low = light.area.low;
+            light_high = light.area.high;
+        }
+#endif
+        size = fmax(size, fmax(largest3(light_low), largest3(light_high)));
+        float pad = size * (2.0f * SHADOW_PAD);
+        out.at_low = light_low - pad;
+        out.at_high = light_high + pad;
+        out.x_low = low - light_low;
+        out.x_high = high - light_high;
         out.low = not_zero(out.x_low - pad);
         out.high = not_zero(out.x_high + pad);
         out.most = 1.0f;
@@ -88,6 +98,28 @@ static inline MASK meets_children(Shaft s, global const ShadowNode* node, uint f
         narrow(span, (lane_load(node->low_z + first) - s.at_high.z) * s.per_high.z, s.high.z > 0);
     return lane_mask(span.first <= span.last);
 }
+
+#if AREA_SHADOWS
+// The same for rays to any points of the light: false only if the light and all points surely lie
+// on one side of the triangle's plane.
+static inline MASK may_part(Shaft s, ShadowLight light, const FV3* v) {
+    FV3 a = sub3(v[1], v[0]);
+    FV3 b = sub3(v[2], v[0]);
+    ShadowForm plane;
+    plane.g = cross3(a, b);
+    plane.c = -dot3(plane.g, v[0]);
+    float ends = fmax(fmax(largest3(s.points_low), largest3(s.points_high)),
+                      fmax(largest3(light.area.low), largest3(light.area.high)));
+    FV unit = products3(a, b) * (size3(v[0]) + fv(3.0f * ends)) * (4.0f * SHADOW_UNIT);
+    FV most = most_in_box(plane, s.points_low, s.points_high);
+    FV most_light = most_in_box(plane, light.area.low, light.area.high);
+    plane = scale_form(plane, fv(-1.0f));
+    FV least = -most_in_box(plane, s.points_low, s.points_high);
+    FV least_light = -most_in_box(plane, light.area.low, light.area.high);
+    return (lane_mask(most_light >= -unit) & lane_mask(least <= unit)) |
+           (lane_mask(most >= -unit) & lane_mask(least_light <= unit));
+}
+#endif
 
 // Whether a triangle may shade a point of the shaft: false only if one of its forms is surely
 // below -1 in all of its box.

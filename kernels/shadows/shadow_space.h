@@ -4,6 +4,7 @@
 #define KILOLUX_DEVICE_SHADOW_SPACE_H
 #include "kernels/device/lanes.h"
 #include "kernels/lists/light_reach.h"
+#include "kernels/shadows/area_target.h"
 #include "kernels/shared/gbuffer.h"
 #include "kernels/shared/shadow.h"
 
@@ -33,13 +34,39 @@ static inline float3 shadow_point(ShadowView view, float3 p) {
                                                 view.shadow_from_view[2].w);
 }
 
+// A vector or, with `w` 1, a point of each lane from view space.
+static inline FV3 lane_shadow_point(ShadowView view, FV3 v, float w) {
+    float4 x = view.shadow_from_view[0], y = view.shadow_from_view[1], z = view.shadow_from_view[2];
+    return fv3(fma(fv(x.z), v.z, fma(fv(x.y), v.y, fma(fv(x.x), v.x, fv(x.w * w)))),
+               fma(fv(y.z), v.z, fma(fv(y.y), v.y, fma(fv(y.x), v.x, fv(y.w * w)))),
+               fma(fv(z.z), v.z, fma(fv(z.y), v.y, fma(fv(z.x), v.x, fv(z.w * w)))));
+}
+
 // A light as the target of rays: points have a position, directional ones a direction.
 typedef struct ShadowLight {
     float3 at;  // position [m]; or the unit direction towards the light
     float inv_range2;
     float reach;  // no ray is longer [m]
     bool is_direction;
+#if AREA_SHADOWS
+    bool is_area;  // each point has a target of its own
+    AreaLight area;
+#endif
 } ShadowLight;
+
+// The same of VW rays.
+typedef struct LaneLight {
+    FV3 at;
+    float reach;
+    bool is_direction;
+} LaneLight;
+
+static inline FV3 splat3(float3 v) { return fv3(fv(v.x), fv(v.y), fv(v.z)); }
+
+// The light at the end of VW rays that have it in common.
+static inline LaneLight shared_light(ShadowLight light) {
+    return (LaneLight){splat3(light.at), light.reach, light.is_direction};
+}
 
 // `light`: in view space.
 static inline ShadowLight shadow_point_light(ShadowView view, ShadeLight light) {
@@ -49,8 +76,26 @@ static inline ShadowLight shadow_point_light(ShadowView view, ShadeLight light) 
     out.inv_range2 = target.w;
     out.reach = fmin(1.0f / sqrt(fmax(target.w, 1e-30f)), 2.0f * view.extent);
     out.is_direction = false;
+#if AREA_SHADOWS
+    out.is_area = false;
+#endif
     return out;
 }
+
+#if AREA_SHADOWS
+// The light with the shape that stands beside it. key: light_key() of the tile.
+static inline ShadowLight with_shape(ShadowLight light, ShadowView view, float4 position,
+                                     LightShape shape, uint key) {
+    light.is_area = has_size(shape);
+    light.area.shape = shape;
+    light.area.center = position.xyz;
+    light.area.of_light = key;
+    if (!light.is_area) return light;
+    box_of_area(view, light.at, &light.area);
+    light.reach += length(light.area.high - light.area.low);
+    return light;
+}
+#endif
 
 static inline ShadowLight shadow_directional_light(ShadowView view, DirectionalLight light) {
     ShadowLight out;
@@ -58,6 +103,9 @@ static inline ShadowLight shadow_directional_light(ShadowView view, DirectionalL
     out.inv_range2 = 0.0f;
     out.reach = 2.0f * view.extent;
     out.is_direction = true;
+#if AREA_SHADOWS
+    out.is_area = false;
+#endif
     return out;
 }
 

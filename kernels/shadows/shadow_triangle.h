@@ -52,8 +52,6 @@ typedef struct ShadowTriangles {
     LaneBoxes box;
 } ShadowTriangles;
 
-static inline FV3 splat3(float3 v) { return fv3(fv(v.x), fv(v.y), fv(v.z)); }
-
 // The sum of the magnitudes of the products in a x b.
 static inline FV products3(FV3 a, FV3 b) {
     return (fabs(a.y * b.z) + fabs(a.z * b.y)) + (fabs(a.z * b.x) + fabs(a.x * b.z)) +
@@ -76,9 +74,9 @@ static inline ShadowForm edge_form(TwofoldVec3 a, TwofoldVec3 b, FV* unit) {
 }
 
 // The plane through edge a -> b in direction `towards`, for points of size `extent` at most.
-static inline ShadowForm edge_form_along(FV3 a, FV3 b, float3 towards, float extent, FV* unit) {
+static inline ShadowForm edge_form_along(FV3 a, FV3 b, FV3 towards, float extent, FV* unit) {
     TwofoldVec3 d = twofold_difference(a, b);
-    TwofoldVec3 l = {splat3(towards), splat3((float3)(0.0f))};
+    TwofoldVec3 l = {towards, splat3((float3)(0.0f))};
     FV3 s = add3(a, b);
     ShadowForm out;
     out.g = twofold_cross(d, l);
@@ -104,7 +102,7 @@ typedef struct ShadowPlanes {
 } ShadowPlanes;
 
 // `v`: corners in shadow space.
-static inline ShadowPlanes shadow_planes(const FV3* v, ShadowLight light) {
+static inline ShadowPlanes shadow_planes(const FV3* v, LaneLight light) {
     FV3 t[3] = {v[0], v[1], v[2]};
     turn_from_longest(t);
     FV3 a = sub3(t[1], t[0]);
@@ -115,7 +113,7 @@ static inline ShadowPlanes shadow_planes(const FV3* v, ShadowLight light) {
     out.normal = cross3(a, b);
     out.offset = dot3(out.normal, t[0]);
     out.unit = max(products * (size + light.reach) * SHADOW_UNIT, fv(1e-36f));
-    FV3 l = splat3(light.at);
+    FV3 l = light.at;
     FV height_unit = products * SHADOW_UNIT;
     if (light.is_direction) {
         out.height = dot3(out.normal, l);
@@ -142,10 +140,10 @@ static inline LaneBoxes boxes_of(const FV3* v) {
 
 // Whether the rays from points to a light pass boxes: no axis and no cross product of an axis and
 // the ray separates them.
-static inline MASK passes_box(ShadowLight light, FV3 p, LaneBoxes box) {
+static inline MASK passes_box(LaneLight light, FV3 p, LaneBoxes box) {
     FV3 m = sub3(p, box.middle);
     FV3 half_edge = box.half_edge;
-    FV3 d = splat3(light.at);
+    FV3 d = light.at;
     FV size = max(larger(p.x, p.y), max(fabs(p.z), fv(0.5f * light.reach)));
     if (!light.is_direction) {
         size = max(max(larger(p.x, p.y), fabs(p.z)), max(larger(d.x, d.y), fabs(d.z)));
@@ -168,14 +166,14 @@ static inline MASK passes_box(ShadowLight light, FV3 p, LaneBoxes box) {
 }
 
 // `v`: corners in shadow space. `sure`: out, whether the triangles can shade at all.
-static inline ShadowTriangles set_up_shadow(const FV3* v, ShadowLight light, float extent,
+static inline ShadowTriangles set_up_shadow(const FV3* v, LaneLight light, float extent,
                                             MASK* sure) {
     ShadowTriangles out;
     ShadowPlanes p = shadow_planes(v, light);
     *sure = p.is_sure;
     MASK above = lane_mask(p.height > fv(0.0f));
     TwofoldVec3 seen[3];
-    for (uint i = 0; i < 3; ++i) seen[i] = twofold_difference(v[i], splat3(light.at));
+    for (uint i = 0; i < 3; ++i) seen[i] = twofold_difference(v[i], light.at);
     // Towards a light's position normal and directions to points are opposite.
     FV side = lane_select(above, fv(1.0f), fv(-1.0f));
     FV inside = light.is_direction ? side : -side;

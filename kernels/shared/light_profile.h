@@ -9,6 +9,7 @@
 // profile_of_light(), profile_head() and profile_value().
 #ifndef KILOLUX_SHARED_LIGHT_PROFILE_H
 #define KILOLUX_SHARED_LIGHT_PROFILE_H
+#include "kernels/shared/angle.h"
 #include "kernels/shared/types.h"
 
 #ifndef HAS_LIGHT_PROFILES
@@ -88,27 +89,6 @@ float profile_value(LightProfiles from, uint i);
 
 // A GLSL shader of a scene without webs defines none of what reads them.
 #if HAS_PROFILE_POINTER || HAS_LIGHT_PROFILES
-// The angle of (x, y) from +X towards +Y, from 0 to pi for y >= 0 [rad]. Sums, products and one
-// division: the same bits for every width. Within 4e-7 of the angle; 0 for (0, 0).
-SHARED_FN FV half_turn_angle(FV x, FV y) {
-    FV along = max(x, -x);
-    FV most = max(max(along, y), fv(1e-37f));
-    FV t = min(along, y) / most;
-    FV s = t * t;
-    // atan(t) / t on [0, 1] within 1e-7: interpolated at the nodes of Chebyshev's polynomial in
-    // t^2.
-    FV p = fma(s, fv(0.00276628346f), fv(-0.015731249f));
-    p = fma(s, p, fv(0.0421376228f));
-    p = fma(s, p, fv(-0.0745685473f));
-    p = fma(s, p, fv(0.106183708f));
-    p = fma(s, p, fv(-0.141977981f));
-    p = fma(s, p, fv(0.199918717f));
-    p = fma(s, p, fv(-0.333330363f));
-    FV angle = fma(s, p, fv(1.0f)) * t;
-    angle = lane_select(y > along, fv(1.570796327f) - angle, angle);
-    return lane_select(x < fv(0.0f), fv(3.141592654f) - angle, angle);
-}
-
 // Bilinear between the table's values around (row, column).
 SHARED_FN FV profile_between(LightProfiles from, uint values, FV row, FV column, float last_row,
                              float turn) {

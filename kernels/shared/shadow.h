@@ -23,6 +23,9 @@
 // tolerance of kernels/shadows/shadow_triangle.h beyond a triangle's edges.
 #define SHADOW_PAD (1.0f / (1 << 17))
 
+// Most rays of a pixel for one lobe of one light with a size.
+#define AREA_SLOTS_MOST 1024u
+
 // Ends of the box of a missing child, which no shaft meets.
 #define SHADOW_NOWHERE 1e30f
 
@@ -72,6 +75,15 @@ SHARED_STRUCT(ShadowView) {
     uint unused0;
 };
 SHARED_ASSERT(shadow_view_size, sizeof(ShadowView) == 64);
+
+// Rays, and places for their results, that sampled shadows have at most for each lobe of a light
+// with a size where each pixel casts `rays` on average: pairs. Shadows that are not sampled have 0
+// rays.
+SHARED_FN uint area_slots(float rays) {
+    if (rays <= 0.0f) return 1u;
+    uint pairs = uint_of(min(fma(rays, 0.5f, 0.999f), float_of(AREA_SLOTS_MOST / 2u)));
+    return 2u * max(pairs, 1u);
+}
 
 #if !defined(GL_core_profile)  // GLSL has no 64-bit integers
 // The work of casting shadows, counted by kernels with COUNT_SHADOWS.

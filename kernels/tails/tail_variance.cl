@@ -30,6 +30,21 @@ static inline FV seen_share(ShadowPick pick, ShadowBits bits, uint i, FV alone) 
 #endif
 }
 
+#if SAMPLED_SHADOWS && HAS_AREA_LIGHTS
+// The same of a light with a size whose sum alone is `one`: its square is at most that.
+static inline FV seen_area_share(ShadowPick pick, ShadowBits bits, uint i, LightSum one,
+                                 uint light) {
+    FV hidden = fv(0.0f);
+    for (uint lobe = 0; lobe < AREA_LOBES; ++lobe, i += area_slots(pick.rays)) {
+        FV part = light_alone(pick, lobe_part(one, lobe));
+        FV pairs = picked_pairs(pick, part, light, lobe);
+        FV weight = area_weight(mean_pairs(pick, part), pairs, count_hidden(bits, i, pairs));
+        hidden += lane_select(part > fv(0.0f), part * weight, fv(0.0f));
+    }
+    return fv(1.0f) - hidden / max(light_alone(pick, one), fv(1e-30f));
+}
+#endif
+
 kernel void tail_variance(LIT_ARGS, WORD_ARGS(const), SAMPLE_ARGS,
                           global float* restrict variance) {  // in/out [height][stride]
     BEGIN_ORDERED_ITEM;
@@ -60,7 +75,12 @@ kernel void tail_variance(LIT_ARGS, WORD_ARGS(const), SAMPLE_ARGS,
             LightSum one = EVALUATE(zero_sum(), p, light, extras, index);
             FV alone = light_alone(pick, one);
             FV missed = fv(1.0f) - fv(1.0f) / random_range_weight(light, dot3(v, v));
-            FV share = seen_share(pick, bits, directional_count + j, alone);
+            uint place = directional_count + j * light_slots(pick.rays);
+            FV share = seen_share(pick, bits, place, alone);
+#if SAMPLED_SHADOWS && HAS_AREA_LIGHTS
+            LightShape shape = shape_of_light(extras, index);
+            if (has_size(shape)) share = seen_area_share(pick, bits, place, one, index);
+#endif
             sum += lane_select(mine, alone * alone * missed * share, fv(0.0f));
         }
     }

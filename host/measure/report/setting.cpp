@@ -135,12 +135,14 @@ void add_shadings(Variants& v, const Scene& scene) {
     }
 }
 
-void add_shadows(Variants& v) {
+// Lights with a size have no exact ones.
+void add_shadows(Variants& v, const Scene& scene) {
     const RenderSettings& base = v.base;
+    const bool has_areas = make_scene_plan(scene, base, 0).kernels.area_lights;
     constexpr std::pair<Shadows, const char*> kWays[] = {{Shadows::off, "off"},
                                                          {Shadows::exact, "exact"}};
     for (const auto& [shadows, name] : kWays) {
-        if (shadows == base.shadows) continue;
+        if (shadows == base.shadows || (has_areas && shadows == Shadows::exact)) continue;
         v.add_option(SettingAxis::shadows, name,
                      [way = shadows](RenderSettings& s) { s.shadows = way; });
     }
@@ -235,7 +237,7 @@ std::vector<ReportSetting> report_settings(const Scene& scene, const RenderSetti
     if (base.renderer != RendererKind::forward) add_grids(variants);
     add_renderers(variants);
     add_shadings(variants, scene);
-    if (has_shadows(base)) add_shadows(variants);
+    if (has_shadows(base)) add_shadows(variants, scene);
     add_cut_offs(variants, scene);
     return std::move(variants.settings);
 }

@@ -144,7 +144,7 @@ ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings,
     SceneFeatures features = features_of(scene, materials);
     features.point_lights = light_count > 0;
     features.area_lights |= settings.lights.count > 0 && settings.lights.size > 0.0;
-    if (features.area_lights) check_area_lights(shading);
+    if (features.area_lights) check_area_lights(shading, settings.shadows);
     features.wide_light_index = light_count > 65536;
     features.shadows = settings.shadows != Shadows::off && triangle_count(scene) > 0;
     if (settings.tails == Tails::stochastic && std::ranges::any_of(scene.lights, lacks_range)) {

@@ -84,7 +84,12 @@ void check_settings(const RenderSettings& settings) {
     check_view(settings);
 }
 
-void check_area_lights(int shading) {
+void check_area_lights(int shading, Shadows shadows) {
+    if (shadows == Shadows::exact) {
+        throw UsageError(
+            "shadows exact: of a light with a size a point sees a share; take --shadows sampled, "
+            "with many --shadow-rays for little noise, or --light-size 0");
+    }
     if (shading != SHADING_BLINN_PHONG) return;
     throw UsageError(
         "shading blinn-phong: it has no highlights of lights with a size; take pbr or lambert, or "

@@ -9,8 +9,9 @@ namespace kilolux {
 /// refuse them before it loads one; Error for a name that settings.force_features does not know.
 void check_settings(const RenderSettings& settings);
 
-/// Throws UsageError where a shading model (SHADING_*) has no light of lights with a size.
-void check_area_lights(int shading);
+/// Throws UsageError where a shading model (SHADING_*) or shadows have no light of lights with a
+/// size.
+void check_area_lights(int shading, Shadows shadows);
 
 /// Whether Tails::tree can light the scene with these settings: a tree's nodes cast no shadows, and
 /// only deferred has them, for opaque surfaces.

@@ -46,10 +46,10 @@ CastShadows::CastShadows(const Gpu& gpu, const Tuning& tuning, const KernelFeatu
 }
 
 ShadowWords CastShadows::reserve(const PreparedLights& lights, const ActiveClusters& clusters,
-                                 StageTimer& timer) {
+                                 StageTimer& timer, uint slots) {
     const uint tiles = clusters.tile_count;
     reserve_.enqueue(items(tiles, tuning_.light_group), timer, tiles, lights.directional_count,
-                     clusters, words_.counts(tiles));
+                     slots, clusters, words_.counts(tiles));
     ShadowWords out;
     out.offsets = words_.enqueue_offsets(tiles, timer);
     words_.fits(words_.read_total());
@@ -65,7 +65,7 @@ WorkSize CastShadows::work_size(uint tiles, const View& view) const {
 }
 
 void CastShadows::enqueue(const ShadowInput& input, const LitPixels& lit, const ShadowWords& words,
-                          StageTimer& timer) {
+                          StageTimer& timer, const ShadowSamples& samples) {
     const WorkSize size = work_size(lit.clusters.tile_count, lit.gbuffer.view);
     DeviceArray<ShadowCounts> counts;
     if (has_counts_) {
@@ -74,7 +74,7 @@ void CastShadows::enqueue(const ShadowInput& input, const LitPixels& lit, const 
         counts = counts_.reserve(items);
         gpu_.queue.enqueueFillBuffer(counts.buffer(), cl_uint{0}, 0, items * sizeof(ShadowCounts));
     }
-    cast_.enqueue(size, timer, lit, input, words, counts);
+    cast_.enqueue(size, timer, lit, input, words, samples, counts);
 }
 
 ShadowCounts CastShadows::counts() const {

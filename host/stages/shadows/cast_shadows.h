@@ -23,14 +23,15 @@ class CastShadows {
 
     /// Makes room for the words, and sets first_pixel and first_word of the clusters. Blocks for
     /// the number of words. Throws Error when the device cannot hold them. Valid until the next
-    /// call.
+    /// call. `slots`: of each light of a list; 1, or area_slots() of sampled shadows in scenes with
+    /// area lights.
     ShadowWords reserve(const PreparedLights& lights, const ActiveClusters& clusters,
-                        StageTimer& timer);
+                        StageTimer& timer, uint slots = 1);
 
     /// Casts into what reserve() returned; with KernelFeatures::sampled_shadows the words hold what
-    /// DrawShadows picked. Enqueues only.
+    /// DrawShadows picked by `samples`. Enqueues only.
     void enqueue(const ShadowInput& input, const LitPixels& lit, const ShadowWords& words,
-                 StageTimer& timer);
+                 StageTimer& timer, const ShadowSamples& samples = {});
 
     /// Words of 32 bits of the last reserve().
     std::uint64_t words() const { return words_.read_total(); }

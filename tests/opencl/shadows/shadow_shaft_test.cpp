@@ -26,7 +26,7 @@ kernel void probe(global const float* in, global int* out) {
     ShadowLight light = {vload3(6 * i + 3, in), 0.0f, 4.0f, false};
     float3 low = vload3(6 * i + 4, in), high = vload3(6 * i + 5, in);
     MASK sure;
-    ShadowTriangles t = set_up_shadow(v, light, 4.0f, &sure);
+    ShadowTriangles t = set_up_shadow(v, shared_light(light), 4.0f, &sure);
     FV3 p = splat3(high);
     FV3 to = sub3(p, splat3(light.at));
     MASK hides = lane_mask(dot3(t.plane.g, p) + t.plane.c >= fv(-1.0f));

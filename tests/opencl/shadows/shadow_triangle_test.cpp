@@ -22,7 +22,7 @@ kernel void probe(global const float* in, uint is_direction, global int* out) {
     size_t i = get_global_id(0);
     ShadowLight light = {vload3(4 * i + 1, in), 0.0f, 2.0f, is_direction != 0u};
     LaneBoxes box = {splat3(vload3(4 * i + 2, in)), splat3(vload3(4 * i + 3, in))};
-    out[i] = lane_any(passes_box(light, splat3(vload3(4 * i, in)), box)) ? 1 : 0;
+    out[i] = lane_any(passes_box(shared_light(light), splat3(vload3(4 * i, in)), box)) ? 1 : 0;
 }
 )";
 
@@ -118,7 +118,7 @@ kernel void probe(global const float* in, global float* out) {
     for (uint k = 0; k < 3; ++k) v[k] = splat3(vload3(5 * i + k, in));
     ShadowLight light = {vload3(5 * i + 3, in), 0.0f, 300.0f, false};
     MASK sure;
-    ShadowTriangles t = set_up_shadow(v, light, 1200.0f, &sure);
+    ShadowTriangles t = set_up_shadow(v, shared_light(light), 1200.0f, &sure);
     out[i] = lane_max(dot3(t.plane.g, splat3(vload3(5 * i + 4, in))) + t.plane.c);
 }
 )";

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where sampled shadow rays to lights with a size go: each pixel has points of its own for each of
+// a light's slots.
+#ifndef KILOLUX_DEVICE_AREA_TARGET_H
+#define KILOLUX_DEVICE_AREA_TARGET_H
+#include "kernels/lists/light_reach.h"
+#include "kernels/shadows/shadow_bits.h"
+#include "kernels/shadows/shadow_random.h"
+#include "kernels/shared/area/sample_shape.h"
+#include "kernels/shared/evaluate.h"
+#include "kernels/shared/light_extras.h"
+#include "kernels/shared/shadow.h"
+
+// Whether rays go to such lights.
+#ifndef AREA_SHADOWS
+#define AREA_SHADOWS 0
+#endif
+
+#if AREA_SHADOWS
+// Most points that are drawn for one ray until one is kept. Of a light that is wholly above the
+// horizon a quarter or more are kept: after 64 none is left in 1e-8 of the cases. Where the horizon
+// leaves little of a light, the last point above it is taken, else about the highest one.
+#define AREA_ATTEMPTS 64u
+
+// A light as the target of rays.
+typedef struct AreaLight {
+    LightShape shape;  // view space; SHAPE_POINT: the light has no size
+    float3 center;     // view space [m]
+    uint of_light;     // light_key() of the seed, tile and light
+    uint key;          // lobe_key() of that
+    uint lobe;
+    uint slot;         // of the lobe
+    float3 low, high;  // box of its targets, shadow space [m]
+} AreaLight;
+
+// The lobe and its slot of a light's slot.
+static inline AreaLight at_slot(AreaLight light, uint slot, float rays) {
+    light.lobe = slot / area_slots(rays);
+    light.slot = slot % area_slots(rays);
+    light.key = lobe_key(light.of_light, light.lobe);
+    return light;
+}
+
+// Pixels as rays to lights with a size begin there.
+typedef struct AreaOrigins {
+    FV3 position, normal;  // of the surface, view space
+    UV key;                // pixel_key()
+#if AREA_LOBES > 1u
+    FV3 gloss_x,
+        gloss_y;  // to the space where the glossy lobe is a cosine about z, rows of x and y
+#endif
+} AreaOrigins;
+
+static inline AreaOrigins area_origins(ShadingPoint p, Pixels pixels) {
+    AreaOrigins out;
+    out.position = p.position;
+    out.normal = p.normal;
+    out.key = pixel_key(pixels);
+#if AREA_LOBES > 1u
+    // The transform of the frame's axes.
+    FV zero = fv(0.0f), one = fv(1.0f);
+    FV3 x = transformed(p.area, fv3(one, zero, zero));
+    FV3 y = transformed(p.area, fv3(zero, one, zero));
+    FV3 z = transformed(p.area, fv3(zero, zero, one));
+    out.gloss_x = add_along(add_along(scale3(p.frame.x, x.x), p.frame.y, y.x), p.frame.z, z.x);
+    out.gloss_y = add_along(add_along(scale3(p.frame.x, x.y), p.frame.y, y.y), p.frame.z, z.y);
+#endif
+    return out;
+}
+
+#if AREA_LOBES > 1u
+// To the space of the glossy lobe, and back.
+static inline FV3 to_gloss(AreaOrigins of, FV3 v) {
+    return fv3(dot3(of.gloss_x, v), dot3(of.gloss_y, v), dot3(of.normal, v));
+}
+
+static inline FV3 from_gloss(AreaOrigins of, FV3 q) {
+    FV3 yz = cross3(of.gloss_y, of.normal), zx = cross3(of.normal, of.gloss_x);
+    FV3 xy = cross3(of.gloss_x, of.gloss_y);
+    FV3 v = add_along(add_along(scale3(yz, q.x), zx, q.y), xy, q.z);
+    return scale3(v, fv(1.0f) / dot3(of.gloss_x, yz));
+}
+#endif
+
+// Largest distances of the shape's points from its centre along three axes that `row` turns it
+// to [m].
+static inline float reach_along(LightShape shape, float4 row) {
+    float x = fabs(dot(row.xyz, shape.half_x.xyz));
+    float y = fabs(dot(row.xyz, shape.half_y.xyz));
+    return shape_kind(shape) == SHAPE_SPHERE ? length(shape.half_x.xyz) : x + y;
+}
+
+// The box of the whole light, with more than targets' rounding.
+static inline void box_of_area(ShadowView view, float3 center, AreaLight* light) {
+    float4 x = view.shadow_from_view[0], y = view.shadow_from_view[1], z = view.shadow_from_view[2];
+    LightShape shape = light->shape;
+    float3 reach =
+        (float3)(reach_along(shape, x), reach_along(shape, y), reach_along(shape, z)) * 1.001f;
+    light->low = center - reach;
+    light->high = center + reach;
+}
+
+// The light as the surface sees it; for the glossy lobe, in its space.
+static inline SeenShape seen_by_lobe(AreaLight light, AreaOrigins from) {
+    FV3 p = from.position;
+    FV3 center = fv3(fv(light.center.x) - p.x, fv(light.center.y) - p.y, fv(light.center.z) - p.z);
+#if AREA_LOBES > 1u
+    if (light.lobe != 0u) {
+        SeenLight seen = seen_light(center, light.shape);
+        return see_shape(seen.kind, to_gloss(from, seen.at.center), to_gloss(from, seen.at.half_x),
+                         to_gloss(from, seen.at.half_y), fv3(fv(0.0f), fv(0.0f), fv(1.0f)));
+    }
+#endif
+    return see_shape(shape_kind(light.shape), center, lanes3(light.shape.half_x),
+                     lanes3(light.shape.half_y), from.normal);
+}
+
+// The vectors from the origins to the targets of the light's slot, view space [m]; where not
+// `wanted` they are undefined.
+static inline FV3 area_targets(AreaLight light, AreaOrigins from, MASK wanted) {
+    const SeenShape seen = seen_by_lobe(light, from);
+    FV3 out = seen.highest;
+    MASK left = wanted;
+    for (uint attempt = 0; attempt < AREA_ATTEMPTS && lane_any(left); ++attempt) {
+        LaneFractions random = ray_fractions(light.key, from.key, light.slot, attempt);
+        ShapeSample s = sample_shape(&seen, lane_random_of(random.u), lane_random_of(random.v));
+        out = select3(left & lane_mask(s.share > fv(0.0f)), s.to_light, out);
+        left &= lane_mask(s.share <= lane_random_of(random.w));
+    }
+#if AREA_LOBES > 1u
+    if (light.lobe != 0u) out = from_gloss(from, out);
+#endif
+    return out;
+}
+#endif
+#endif
