@@ -17,7 +17,6 @@
 #ifndef KILOLUX_SHARED_EVALUATE_H
 #define KILOLUX_SHARED_EVALUATE_H
 #include "kernels/shared/light.h"
-#include "kernels/shared/light_extras.h"
 #include "kernels/shared/lobes/light_sum.h"
 #include "kernels/shared/lobes/passed_light.h"
 #include "kernels/shared/lobes/pbr.h"
@@ -28,10 +27,15 @@
 #ifndef HAS_RANDOM_RANGES
 #define HAS_RANDOM_RANGES 0
 #endif
+#ifndef HAS_LIGHT_PROFILES
+#define HAS_LIGHT_PROFILES 0
+#endif
+#define HAS_LIGHT_EXTRAS (HAS_LIGHT_PROFILES != 0 || HAS_AREA_LIGHTS != 0)
 #if HAS_AREA_LIGHTS
 #include "kernels/shared/area/area_lobes.h"
 #endif
 #if HAS_LIGHT_EXTRAS
+#include "kernels/shared/light_extras.h"
 #define EVALUATE(sum, p, light, extras, index) evaluate(sum, p, light, extras, index)
 #else
 #define EVALUATE(sum, p, light, extras, index) evaluate(sum, p, light)

@@ -8,11 +8,6 @@
 #include "kernels/shared/area/area_shape.h"
 #include "kernels/shared/light_profile.h"
 
-#ifndef HAS_AREA_LIGHTS
-#define HAS_AREA_LIGHTS 0
-#endif
-#define HAS_LIGHT_EXTRAS (HAS_LIGHT_PROFILES != 0 || HAS_AREA_LIGHTS != 0)
-
 #if defined(__cplusplus)
 namespace kilolux {
 #endif
