@@ -50,10 +50,10 @@ SHARED_FN SineCosine sine_cosine(FV angle) {
     c = fma(q, c, fv(4.16666667e-2f));
     c = fma(q, c, fv(-0.5f));
     c = fma(q, c, fv(1.0f));
-    SineCosine out;
-    out.sine = fv(2.0f) * s * c;
-    out.cosine = fma(fv(-2.0f) * s, s, fv(1.0f));
-    return out;
+    SineCosine turn;
+    turn.sine = fv(2.0f) * s * c;
+    turn.cosine = fma(fv(-2.0f) * s, s, fv(1.0f));
+    return turn;
 }
 
 #if defined(__cplusplus)
