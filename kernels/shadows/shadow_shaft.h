@@ -101,7 +101,8 @@ static inline MASK meets_children(Shaft s, global const ShadowNode* node, uint f
 
 #if AREA_SHADOWS
 // The same for rays to any points of the light: false only if the light and all points surely lie
-// on one side of the triangle's plane.
+// on one side of the triangle's plane. A hidden point is a unit behind it, 16 times the rounding
+// here.
 static inline MASK may_part(Shaft s, ShadowLight light, const FV3* v) {
     FV3 a = sub3(v[1], v[0]);
     FV3 b = sub3(v[2], v[0]);
@@ -116,8 +117,8 @@ static inline MASK may_part(Shaft s, ShadowLight light, const FV3* v) {
     plane = scale_form(plane, fv(-1.0f));
     FV least = -most_in_box(plane, s.points_low, s.points_high);
     FV least_light = -most_in_box(plane, light.area.low, light.area.high);
-    return (lane_mask(most_light >= -unit) & lane_mask(least <= unit)) |
-           (lane_mask(most >= -unit) & lane_mask(least_light <= unit));
+    return (lane_mask(most_light >= -unit) & lane_mask(least <= fv(0.0f))) |
+           (lane_mask(most >= fv(0.0f)) & lane_mask(least_light <= unit));
 }
 #endif
 

@@ -51,6 +51,25 @@ TEST(SoftShadowBits, AreThoseOfEveryLight) {
     EXPECT_NE(render_once(scene, settings).radiance, listed.radiance);
 }
 
+// The first ray of a single pixel passes beside the board that others meet.
+TEST(SoftShadowBits, OfAPixelInPenumbraAreThoseOfEveryLight) {
+    const Scene scene = board_below(panel(LightType::rectangle)).scene;
+    RenderSettings settings = soft_settings(1, 1, 8);
+    const Camera camera = look_at({0.5, 3.5, 4.5}, {1.55, 0.0, 0.06}, {0, 1, 0}, 0.01);
+    Renderer by_lists(scene, settings);
+    settings.renderer = RendererKind::deferred_all;
+    Renderer by_all(scene, settings);
+    for (uint seed = 1; seed <= 100; ++seed) {
+        settings.seed = seed;
+        by_all.change(settings);
+        const Frame all = by_all.render(camera, 0.0);
+        RenderSettings listed = settings;
+        listed.renderer = RendererKind::deferred;
+        by_lists.change(listed);
+        EXPECT_EQ(by_lists.render(camera, 0.0).radiance, all.radiance) << seed;
+    }
+}
+
 TEST(SoftShadowBits, AreTheSameInBandsAndInAnotherGrid) {
     const Scene scene = grid_with_area_lights();
     RenderSettings settings = bits_settings(96, 64);
