@@ -6,9 +6,9 @@
 
 #include "host/picture/frame.h"
 #include "host/picture/web_in_view.h"
+#include "kernels/shared/area/area_shape.h"
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/gbuffer.h"
-#include "kernels/shared/area/area_shape.h"
 #include "kernels/shared/light.h"
 #include "kernels/shared/view.h"
 

@@ -7,21 +7,21 @@
 #include <vector>
 
 #include "host/picture/web_in_view.h"
+#include "kernels/shared/area/area_shape.h"
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/clusters.h"
 #include "kernels/shared/gbuffer.h"
-#include "kernels/shared/area/area_shape.h"
 #include "kernels/shared/light.h"
 
 namespace kilolux {
 
 /// A light of a pixel's list.
 struct ProbedLight {
-    uint index = 0;            // among the point and spot lights in use
-    Light light{};             // camera-relative, world axes
-    ShadeLight shade{};        // as shading has it, view space
-    WebInView web{};           // its photometric web, if it has one
-    LightShape shape{};        // its shape, view space
+    uint index = 0;              // among the point and spot lights in use
+    Light light{};               // camera-relative, world axes
+    ShadeLight shade{};          // as shading has it, view space
+    WebInView web{};             // its photometric web, if it has one
+    LightShape shape{};          // its shape, view space
     std::optional<bool> seen{};  // with shadows: whether nothing hides it from the pixel
 };
 

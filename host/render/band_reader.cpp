@@ -267,8 +267,8 @@ LitSurfaces BandReader::lit_surfaces(const LastSample& last) {
                     {},
                     {}};
     if (lights.extras.shapes) {
-        out.shapes = single_lights(download(gpu, *lights.extras.shapes, lights.rows()),
-                                   lights.count, nodes);
+        out.shapes =
+            single_lights(download(gpu, *lights.extras.shapes, lights.rows()), lights.count, nodes);
     }
     if (lights.extras.profiles) {
         const auto rows = download(gpu, *lights.extras.profiles, lights.rows());

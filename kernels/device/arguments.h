@@ -21,12 +21,12 @@
 
 // PreparedLights, view space. lights, bounds (p_view, 1/range^2), extents, aimed_profiles,
 // shapes: [light_count + node_count]; the nodes of the light tree come last.
-#define LIGHT_ARGS(access)                                                                       \
-    global access StoredLight *restrict lights, global access float4 *restrict bounds,           \
-        global access LightExtent *restrict extents, uint light_count,                           \
-        global const DirectionalLight *restrict directional_lights, uint directional_count,      \
-        global const AimedProfile *restrict aimed_profiles,                                      \
-        global const float *restrict profile_tables, global const LightShape *restrict shapes,   \
+#define LIGHT_ARGS(access)                                                                     \
+    global access StoredLight *restrict lights, global access float4 *restrict bounds,         \
+        global access LightExtent *restrict extents, uint light_count,                         \
+        global const DirectionalLight *restrict directional_lights, uint directional_count,    \
+        global const AimedProfile *restrict aimed_profiles,                                    \
+        global const float *restrict profile_tables, global const LightShape *restrict shapes, \
         global const TreeNode *restrict tree_nodes, uint node_count
 #define EXTRAS_OF_ARGS ((LightExtras){{aimed_profiles, profile_tables}, shapes})
 

@@ -59,7 +59,8 @@ ReferenceOptions reference_options(const Renderer& renderer, const Camera& camer
 
 ReferencePicture shade_reference(const LitSurfaces& lit, const ReferenceOptions& options) {
     return shade_reference(surface_samples(lit.surfaces),
-                           reference_lights(lit.lights, lit.directional, {lit.webs, lit.shapes}), options);
+                           reference_lights(lit.lights, lit.directional, {lit.webs, lit.shapes}),
+                           options);
 }
 
 ReferencePicture picture_reference(Renderer& renderer, const Camera& camera,

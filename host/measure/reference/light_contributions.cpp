@@ -31,9 +31,8 @@ std::vector<LightContribution> light_contributions(const PixelProbe& probe,
     surface.emissive = glm::dvec3(0.0);
     std::vector<LightContribution> out;
     for (const ProbedLight& light : probe.lights) {
-        const ReferenceLights one =
-            reference_lights(std::span(&light.shade, 1), {},
-                             {std::span(&light.web, 1), std::span(&light.shape, 1)});
+        const ReferenceLights one = reference_lights(
+            std::span(&light.shade, 1), {}, {std::span(&light.web, 1), std::span(&light.shape, 1)});
         const ReferencePicture lit = shade_reference(surfaces, one, model);
         const bool seen = light.seen.value_or(true);
         const glm::dvec3 way = one.lights.front().position - surface.position;

@@ -53,7 +53,8 @@ void add_incident(Pixel& pixel, const SurfaceSample& surface, const glm::dvec3& 
     if (passed != glm::dvec3(0.0)) pixel.radiance.add(share * irradiance * passed);
 }
 
-// A light with a size that nothing hides: its radiance times BRDF times cosine over its solid angle.
+// A light with a size that nothing hides: its radiance times BRDF times cosine over its solid
+// angle.
 void add_area(Pixel& pixel, const SurfaceSample& surface, const ReferenceLight& light,
               const ReferenceOptions& options) {
     const double window = window_at(light, surface.position, options);
@@ -66,7 +67,8 @@ void add_area(Pixel& pixel, const SurfaceSample& surface, const ReferenceLight& 
     const double margin = kReachMargin * glm::length(shape.half_x) * glm::length(shape.half_y) *
                           glm::length(shape.center);
     ++pixel.lights;
-    pixel.reaching += window > 2.0 * kReachMargin && (is_sphere || shape.two_sided || side < -margin);
+    pixel.reaching +=
+        window > 2.0 * kReachMargin && (is_sphere || shape.two_sided || side < -margin);
     // The irradiance of a disk of that area straight ahead, at least.
     const double square = glm::dot(shape.center, shape.center);
     pixel.scale.add(luminance / (square * light.inverse_area + 1.0 / std::numbers::pi));

@@ -138,7 +138,9 @@ constexpr const LightKind& kind_of(LightType type) {
 constexpr const LightKind& kind_of(const SceneLight& light) { return kind_of(light.type); }
 
 /// Whether the light has a size.
-constexpr bool is_area_light(const SceneLight& light) { return kind_of(light).shape != SHAPE_POINT; }
+constexpr bool is_area_light(const SceneLight& light) {
+    return kind_of(light).shape != SHAPE_POINT;
+}
 
 /// Adds what a scene needs that has the light.
 inline void add_features(SceneFeatures& features, const SceneLight& light) {

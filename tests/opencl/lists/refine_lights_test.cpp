@@ -159,7 +159,7 @@ TEST(RefineLights, HalfSpacesAreTestedByTheCornersOfBoxes) {
         lights.push_back(spot_light(point, random.direction(), 1.0, 1.5707963267948966));
     }
     const ListedLights made = list_everywhere(gpu, default_tuning(gpu.info), features,
-                                               {gbuffer, upload_lights(gpu, lights), grid});
+                                              {gbuffer, upload_lights(gpu, lights), grid});
     const HostLists lists = download_lists(gpu, features, made);
     const auto rows = download<ShadeLight>(gpu, made.lights.lights, lights.size());
     std::size_t behind = 0;
@@ -167,7 +167,9 @@ TEST(RefineLights, HalfSpacesAreTestedByTheCornersOfBoxes) {
         const auto list = lists.refined_of(c);
         for (uint i = 0; i < rows.size(); ++i) {
             const float4 &p = rows[i].position_inv_range2, &axis = rows[i].axis_cos;
-            const auto most = [](double a, double lo, double hi) { return std::max(a * lo, a * hi); };
+            const auto most = [](double a, double lo, double hi) {
+                return std::max(a * lo, a * hi);
+            };
             const double corner = most(axis.x, double{c.min_x} - p.x, double{c.max_x} - p.x) +
                                   most(axis.y, double{c.min_y} - p.y, double{c.max_y} - p.y) +
                                   most(axis.z, double{c.min_z} - p.z, double{c.max_z} - p.z);
