@@ -4,7 +4,7 @@
 // Words of bits: tile after tile, cluster after cluster, for each directional light and each light
 // of the cluster's list as many words of 32 pixels as the cluster touches. Bit i of word w is place
 // 32 w + i in the tile's order, w counted from the cluster's first pixel's. In scenes with area
-// lights each light of a list has so many words for each of its slots.
+// lights each light of a list has that many words for each of its slots.
 #ifndef KILOLUX_DEVICE_CAST_SHADOWS_H
 #define KILOLUX_DEVICE_CAST_SHADOWS_H
 // With PICKED_ONLY the words hold the pixels that pick a light (draw_shadows), and afterwards those

@@ -51,8 +51,22 @@ typedef struct LostLight {
 
 static inline FV square_of(FV v) { return v * v; }
 
+#if HAS_AREA_LIGHTS
+// The most that is lost of a light whose points are up to `size` from its centre: their distance
+// is less than that of the centre by as much. Where that is more than half of it, the light is at
+// most that of the hemisphere, pi over the area.
+static inline FV lost_share(LightShape shape, FV near2, FV far2, FV inv) {
+    float size = length(shape.half_x.xyz) + length(shape.half_y.xyz);
+    FV nearest = max(sqrt(near2) - size, fv(1e-18f));
+    float size2 = size * size;
+    FV close = fv(16.0f * M_PI_F * shape.half_y.w * size2 * size2) * inv * inv;
+    FV within = fma(fv(4.0f) * min(far2 * inv, fv(1.0f)), inv, close);
+    return lane_select(near2 * inv > fv(1.0f), fv(1.0f) / (nearest * nearest), within);
+}
+#endif
+
 // Within the range the window takes d^2 / range^4, beyond it all of 1 / d^2: the most at the range.
-static inline LostLight lost_light(Boxes boxes, ShadeLight light) {
+static inline LostLight lost_light(Boxes boxes, ShadeLight light, LightShape shape) {
     float4 at = light.position_inv_range2;
     FV3 v = fv3(fv(at.x) - boxes.middle.x, fv(at.y) - boxes.middle.y, fv(at.z) - boxes.middle.z);
     FV near2 = square_of(max(fabs(v.x) - boxes.half_edge.x, fv(0.0f))) +
@@ -64,6 +78,9 @@ static inline LostLight lost_light(Boxes boxes, ShadeLight light) {
     FV inv = fv(at.w);
     FV within = min(far2 * inv, fv(1.0f)) * inv;
     out.share = lane_select(near2 * inv > fv(1.0f), fv(1.0f) / near2, within);
+#if HAS_AREA_LIGHTS
+    if (has_size(shape)) out.share = lost_share(shape, near2, far2, inv);
+#endif
     // |a/|a| - b/|b|| <= |a - b| / sqrt(|a| |b|)
     FV distance = sqrt(dot3(v, v));
     FV s = boxes.radius / max(sqrt(sqrt(near2) * distance), fv(1e-30f));
@@ -76,6 +93,10 @@ static inline LostLight lost_light(Boxes boxes, ShadeLight light) {
                      fma(out.toward.y, fv(light.axis_cos.y), out.toward.z * light.axis_cos.z));
     FV cone = clamp((cosine + out.stray - fv(light.axis_cos.w)) * fv(light.color_scale.w), fv(0.0f),
                     fv(1.0f));
+    // Of a flat light the cone is its half-space alone.
+#if HAS_AREA_LIGHTS
+    if (has_size(shape)) cone = fv(1.0f);
+#endif
     out.share *= cone * cone;
 #endif
     return out;
@@ -122,7 +143,11 @@ kernel void tail_moments(
     }
     for (uint i = 0; i < light_count; ++i) {
         if (has_own_range(own[i])) continue;
-        LostLight lost = lost_light(boxes, lights[i]);
+        LightShape shape = {0.0f, 0.0f};
+#if HAS_AREA_LIGHTS
+        shape = shapes[i];
+#endif
+        LostLight lost = lost_light(boxes, lights[i], shape);
         float4 color = lights[i].color_scale;
         add_lost(sums[0], lost, color.x);
         add_lost(sums[1], lost, color.y);

@@ -39,7 +39,8 @@ static inline FV seen_area_share(ShadowPick pick, ShadowBits bits, uint i, Light
         FV part = light_alone(pick, lobe_part(one, lobe));
         FV pairs = picked_pairs(pick, part, light, lobe);
         FV weight = area_weight(mean_pairs(pick, part), pairs, count_hidden(bits, i, pairs));
-        hidden += lane_select(part > fv(0.0f), part * weight, fv(0.0f));
+        // The square of a denormal part is 0, and its weight no number.
+        hidden += lane_select(part > fv(1e-18f), part * weight, fv(0.0f));
     }
     return fv(1.0f) - hidden / max(light_alone(pick, one), fv(1e-30f));
 }

@@ -269,6 +269,7 @@ LightRows LightSource::rows(const glm::dvec3& camera_position) {
     tbb::parallel_for(std::size_t{0}, row_count(), [&](std::size_t i) { lights[i] = light(i); });
     for (const std::uint32_t number : directional_order_) lights.push_back(own_[number]);
     LightRows out = make_light_rows(lights, camera_position);
+    if (has_area_lights()) out.shapes.resize(out.local.size());  // points, where none is usable
     if (scene_.aimed_profiles.empty()) return out;
     out.profile_tables = profile_tables_;
     lights.resize(row_count());  // those that are usable: none is left out

@@ -87,13 +87,12 @@ void check_settings(const RenderSettings& settings) {
 void check_area_lights(int shading, Shadows shadows) {
     if (shadows == Shadows::exact) {
         throw UsageError(
-            "shadows exact: of a light with a size a point sees a share; take --shadows sampled, "
-            "with many --shadow-rays for little noise, or --light-size 0");
+            "shadows exact: a point may see a part of a light with a size; use --shadows sampled, "
+            "with many --shadow-rays for little noise");
     }
     if (shading != SHADING_BLINN_PHONG) return;
     throw UsageError(
-        "shading blinn-phong: it has no highlights of lights with a size; take pbr or lambert, or "
-        "--light-size 0");
+        "shading blinn-phong: it has no highlights of lights with a size; use pbr or lambert");
 }
 
 bool tree_can_light(const Scene& scene, const RenderSettings& settings) {

@@ -19,8 +19,8 @@ struct ExportedFile {
 struct ExportedScene {
     std::vector<ExportedFile> files;  // the scene file comes last, after those that it refers to
     std::size_t lights = 0;           // written
-    std::size_t unusable_lights =
-        0;  // left out: glTF allows no infinite or negative value of a light
+    // Left out: glTF allows no infinite or negative value of a light, and has no triangles.
+    std::size_t unusable_lights = 0;
 };
 
 /// Writes the scene as glTF 2.0 that load_scene() reads back to the same picture.

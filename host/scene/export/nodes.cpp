@@ -209,8 +209,7 @@ ExportedNodes export_nodes(const Scene& scene, const std::vector<int>& mesh_of) 
         out.roots.push_back(add_placed(out.nodes, instance.world_from_object, {{"mesh", mesh}}));
     }
     for (const SceneLight& light : scene.lights) {
-        if (kind_of(light).extension.empty()) continue;  // the loader makes them of surfaces
-        if (!is_usable(light)) {
+        if (kind_of(light).extension.empty() || !is_usable(light)) {  // files have no triangles
             ++out.unusable_lights;
             continue;
         }

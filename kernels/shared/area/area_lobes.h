@@ -55,7 +55,7 @@ SHARED_FN LightSum add_area_lobes(LightSum sum, ShadingPoint p, SeenLight view, 
 #if !(HAS_COAT && HAS_COAT_NORMAL)
     if (!lane_any(cosine > fv(0.0f))) return sum;
 #endif
-    FV3 v = lifted_vector(with_half_sides(framed), framed.at.center);
+    FV3 v = typical_vector(framed, typical_point(with_half_sides(framed), fill_of(framed)));
     FV3 l = scale3(v, lane_rsqrt(max(dot3(v, v), fv(1e-30f))));
     FV cos2_half = fma(p.frame.eye_x, l.x, fma(p.frame.eye_z, l.z, fv(1.0f)));  // 2 (v.h)^2
     FV cos_half = lane_sqrt(max(fv(0.5f) * cos2_half, fv(0.0f)));

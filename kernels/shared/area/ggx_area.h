@@ -43,8 +43,9 @@ SHARED_FN SeenLight seen_light(FV3 v, LightShape shape) {
         light.at = sphere_disk(v, lane_sqrt(dot3(light.at.half_x, light.at.half_x)));
     } else if (shines_both_ways(shape)) {
         FV behind = dot3(v, cross3(light.at.half_x, light.at.half_y));
-        FV turn = lane_select(behind > fv(0.0f), fv(-1.0f), fv(1.0f));
-        light.at.half_x = scale3(light.at.half_x, turn);
+        FV3 x = light.at.half_x, y = light.at.half_y;  // exchanged, they shine the other way
+        light.at.half_x = select3(behind > fv(0.0f), y, x);
+        light.at.half_y = select3(behind > fv(0.0f), x, y);
     }
     return light;
 }

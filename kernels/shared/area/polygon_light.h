@@ -18,7 +18,7 @@
 #define SMALL_TRIANGLE 0.003f
 // As SMALL_LIGHT for the transformed lights of a lobe, whose fit is off by more than the samples:
 // lights that the horizon cuts, too.
-#define SMALL_LOBE_LIGHT 0.03f
+#define SMALL_LOBE_LIGHT 0.012f
 // Below this one distant_edge can be used, and below the next it is where the horizon cuts.
 #define DISTANT_LIGHT 0.1f
 #define DISTANT_CUT_LIGHT 8e-3f

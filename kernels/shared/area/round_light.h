@@ -54,30 +54,18 @@ SHARED_FN FV cone_cosine(FV axis_z, FV sine2, FV cosine2) {
     return share;
 }
 
-// A sphere; inside it 0.
-SHARED_FN FV sphere_cosine(FV3 center, FV radius) {
-    FV square = dot3(center, center), radius2 = radius * radius;
-    FV free = square - radius2;  // the square of the tangents' length
-    MASK outside = free > SMALLEST_SQUARE;
-    FV inverse = inverse_length(square);
-    FV inverse2 = inverse * inverse;
-    FV sine2 = max(radius2 * inverse2, fv(1e-37f));
-    FV share = cone_cosine(center.z * inverse, sine2, max(free, fv(0.0f)) * inverse2);
-    FV cosine = fv(3.14159265f) * sine2 * share;
-    return lane_select(outside, cosine, fv(0.0f));
-}
-
 // Centre and half axes of an ellipse.
 SHARED_PLAIN_STRUCT(FlatLight) { FV3 center, half_x, half_y; };
 
 // The irradiance of a disk that is perpendicular to the direction to its centre, and shines to the
-// origin: of a sphere's solid angle. Exact.
+// origin: of a sphere's solid angle. Exact; 0 for the disk of a sphere around the origin.
 SHARED_FN FV facing_disk_cosine(FV3 center, FV3 half_x) {
     FV distance2 = dot3(center, center), radius2 = dot3(half_x, half_x);
     FV inverse2 = lane_divide(fv(1.0f), max(distance2 + radius2, fv(SMALLEST_SQUARE)));
     FV sine2 = max(radius2 * inverse2, fv(1e-37f));
     FV axis_z = center.z * inverse_length(distance2);
-    return fv(3.14159265f) * sine2 * cone_cosine(axis_z, sine2, distance2 * inverse2);
+    FV cosine = fv(3.14159265f) * sine2 * cone_cosine(axis_z, sine2, distance2 * inverse2);
+    return lane_select(distance2 > fv(0.0f), cosine, fv(0.0f));
 }
 
 // The disk that fills the same solid angle as a sphere outside of which the origin is. It shines to

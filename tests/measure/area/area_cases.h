@@ -31,6 +31,12 @@ inline AreaShape stored(AreaShape s) {
     return s;
 }
 
+// As kernels integrate spheres.
+inline FV sphere_light_cosine(FV3 center, FV radius) {
+    const FlatLight disk = sphere_disk(center, radius);
+    return facing_disk_cosine(disk.center, disk.half_x);
+}
+
 /// The shared text's value.
 inline double shared_cosine(const AreaShape& s) {
     const FV3 center = float3_of(s.center), x = float3_of(s.half_x), y = float3_of(s.half_y);
@@ -44,7 +50,7 @@ inline double shared_cosine(const AreaShape& s) {
         case AreaKind::sphere:
             break;
     }
-    return sphere_cosine(center, static_cast<float>(s.radius));
+    return sphere_light_cosine(center, static_cast<float>(s.radius));
 }
 
 inline std::ostream& operator<<(std::ostream& out, const AreaShape& s) {

@@ -37,6 +37,13 @@ Scene scene_with_areas() {
         light.range = 6.0f;
         scene.lights.push_back(light);
     }
+    // A triangle seen from behind, which shines there, too, and a sphere around some surfaces.
+    SceneLight& triangle = scene.lights[scene.lights.size() - 21];
+    triangle.direction = {0.0, 1.0, 0.0};
+    triangle.side = {1.0, 0.0, 0.0};
+    SceneLight& sphere = scene.lights[scene.lights.size() - 18];
+    sphere.position.y = box.max.y;
+    sphere.radius = 1.0f;
     return scene;
 }
 
