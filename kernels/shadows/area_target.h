@@ -107,7 +107,8 @@ static inline SeenShape seen_by_lobe(AreaLight light, AreaOrigins from) {
 #if AREA_LOBES > 1u
     if (light.lobe != 0u) {
         SeenLight seen = seen_light(center, light.shape);
-        return see_shape(seen.kind, to_gloss(from, seen.at.center), to_gloss(from, seen.at.half_x),
+        uint kind = seen.kind == SHAPE_SPHERE ? SHAPE_DISK : seen.kind;
+        return see_shape(kind, to_gloss(from, seen.at.center), to_gloss(from, seen.at.half_x),
                          to_gloss(from, seen.at.half_y), fv3(fv(0.0f), fv(0.0f), fv(1.0f)));
     }
 #endif

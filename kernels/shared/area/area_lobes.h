@@ -53,7 +53,10 @@ SHARED_FN LightSum add_area_lobes(LightSum sum, ShadingPoint p, SeenLight view, 
     SeenLight framed = light_in_frame(p.frame, view);
     FV cosine = light_cosine(framed, false);
 #if !(HAS_COAT && HAS_COAT_NORMAL)
-    if (!lane_any(cosine > fv(0.0f))) return sum;
+    // Below the horizon of all lobes. A lane has the same light whatever the others have.
+    MASK above_horizon = cosine > fv(0.0f);
+    if (!lane_any(above_horizon)) return sum;
+    weight = lane_select(above_horizon, weight, fv(0.0f));
 #endif
     FV3 v = typical_vector(framed, typical_point(with_half_sides(framed), fill_of(framed)));
     FV3 l = scale3(v, lane_rsqrt(max(dot3(v, v), fv(1e-30f))));
