@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "host/measure/metrics/compensated_sum.h"
+#include "host/measure/reference/area/area_parts.h"
 #include "host/measure/reference/reference_brdf.h"
 
 namespace kilolux {
@@ -53,10 +54,36 @@ void add_incident(Pixel& pixel, const SurfaceSample& surface, const glm::dvec3& 
     if (passed != glm::dvec3(0.0)) pixel.radiance.add(share * irradiance * passed);
 }
 
-// A light with a size that nothing hides: its radiance times BRDF times cosine over its solid
-// angle.
+// The share of a light with a size that comes to the point of what it would reflect if nothing hid
+// it: a quadrature over kShadowSteps^2 rays, by which the exact integral is multiplied.
+template <typename Reflected>
+glm::dvec3 passing_share(const AreaShape& shape, const glm::dvec3& position,
+                         const ShadowPoint& point, const ReferenceOptions& options,
+                         const Reflected& reflected) {
+    constexpr int kShadowSteps = 24;
+    const ShadowCaster& caster = *options.shadows;
+    CompensatedSum3 passed, all;
+    for (const AreaPart& part : parts_of(shape, kShadowSteps)) {
+        if (part.solid_angle == 0.0) continue;
+        const glm::dvec3 light = reflected(glm::normalize(part.to_light)) * part.solid_angle;
+        if (light == glm::dvec3(0.0)) continue;
+        all.add(light);
+        const glm::dvec3 target = position + part.to_light;
+        passed.add(light * (options.tinted_shadows ? caster.share(point, target, options.shading)
+                                                   : glm::dvec3(caster.sees(point, target))));
+    }
+    const glm::dvec3 sum = all.value();
+    glm::dvec3 share(1.0);
+    for (int c = 0; c < 3; ++c) {
+        if (sum[c] > 0.0) share[c] = passed.value()[c] / sum[c];
+    }
+    return share;
+}
+
+// A light with a size: its luminance times BRDF times cosine over its solid angle. `point`: from
+// where shadow rays go, if they do.
 void add_area(Pixel& pixel, const SurfaceSample& surface, const ReferenceLight& light,
-              const ReferenceOptions& options) {
+              const std::optional<ShadowPoint>& point, const ReferenceOptions& options) {
     const double window = window_at(light, surface.position, options);
     if (window == 0.0) return;
     AreaShape shape = *light.shape;
@@ -80,7 +107,11 @@ void add_area(Pixel& pixel, const SurfaceSample& surface, const ReferenceLight& 
     const AreaIntegral sum =
         one_horizon ? integrate_area(shape, surface.normal, reflected, options.area_tolerance)
                     : integrate_area(shape, reflected, options.area_tolerance);
-    pixel.radiance.add(luminance * sum.value);
+    if (sum.value == glm::dvec3(0.0)) return;
+    const glm::dvec3 share =
+        point ? passing_share(shape, surface.position, *point, options, reflected)
+              : glm::dvec3(1.0);
+    pixel.radiance.add(luminance * sum.value * share);
 }
 
 Pixel shade(const SurfaceSample& surface, const ReferenceLights& lights,
@@ -106,7 +137,7 @@ Pixel shade(const SurfaceSample& surface, const ReferenceLights& lights,
     }
     for (const ReferenceLight& light : lights.lights) {
         if (light.shape) {
-            add_area(pixel, surface, light, options);
+            add_area(pixel, surface, light, point, options);
             continue;
         }
         const Incidence in = incidence(light, surface.position, options);

@@ -18,7 +18,7 @@
 #include "kernels/shared/surface.h"
 #include "kernels/shared/types.h"
 
-#if SHADING != SHADING_BLINN_PHONG
+#if HAS_AREA_LIGHTS != 0 && SHADING != SHADING_BLINN_PHONG
 #if defined(__cplusplus)
 namespace kilolux {
 #endif
