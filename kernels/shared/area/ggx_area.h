@@ -10,7 +10,7 @@
 // between 1 - w and 1 / (1 - w), and smooth at R = 1.
 //   w = (1 - E / pi) / (1 + s^2 / 4), s: size of the transformed light / distance,
 // is 1 for small lights and 0 for one that fills the lobe. Form and constants were chosen by the
-// errors of host/measure/results/ggx_area_error.md.
+// errors of host/measure/reference/area/ggx_area_error.md.
 #ifndef KILOLUX_SHARED_AREA_GGX_AREA_H
 #define KILOLUX_SHARED_AREA_GGX_AREA_H
 #include "kernels/shared/area/area_lobe.h"

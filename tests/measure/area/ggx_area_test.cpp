@@ -131,7 +131,7 @@ std::vector<double> numbers_of(std::string line) {
 
 // Every fourth row; the margins [%] are more than the rounding of what is published.
 TEST(GgxArea, ErrorsAreAtMostThePublishedOnes) {
-    std::ifstream file(source_root() + "/host/measure/results/ggx_area_error.md");
+    std::ifstream file(source_root() + "/host/measure/reference/area/ggx_area_error.md");
     std::string line;
     while (std::getline(file, line) && line != std::string("## ") + kOfItself) continue;
     for (int i = 0; i < 3; ++i) std::getline(file, line);

@@ -93,7 +93,8 @@ TEST(AreaLights, ListsChangeNoBitInAnyMode) {
     }
 }
 
-// Diffuse light is exact; GGX light is an approximation: host/measure/results/ggx_area_error.md.
+// Diffuse light is exact; GGX light is an approximation:
+// host/measure/reference/area/ggx_area_error.md.
 TEST(AreaLights, ShadeAsTheReferenceDoes) {
     const Scene scene = scene_with_areas();
     const Difference lambert = from_reference(scene, Shading::lambert);
