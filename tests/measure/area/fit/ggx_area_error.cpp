@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints host/measure/reference/area/ggx_area_error.md: the program `ggx_area_error`, built on demand.
+// Prints host/measure/reference/area/ggx_area_error.md: the program `ggx_area_error`, built on
+// demand.
 #include <cstdio>
 
 #include "tests/measure/area/fit/error_table.h"
