@@ -6,6 +6,14 @@
 #include "kernels/shadows/cast_shadows.h"
 #include "kernels/shadows/shadow_rays.h"
 
+#if PICKED_ONLY
+// As sees_light(): read as one, since other items take off bits of the same word.
+static inline MASK is_picked(ShadowBits bits, uint i, global uint* words) {
+    uint word = atomic_or(words + (bits.words - words) + i * bits.stride, 0u);
+    return lane_mask(((UV)(word >> bits.shift) >> lane_numbers & 1u) != (UV)(0u));
+}
+#endif
+
 // Writes the bits of the item's pixels that are the cluster's, from lane 0 on.
 static inline void put_seen(ShadowBits bits, uint j, MASK mine, MASK seen, global uint* words) {
     global uint* word = words + (bits.words - words) + j * bits.stride;
@@ -23,7 +31,7 @@ static inline void cast_slots(ShadowRays rays, CastLights from, ShadowLight ligh
     MASK mine = rays.wanted;
     for (uint slot = 0; slot < slots;) {
 #if PICKED_ONLY
-        rays.wanted = mine & sees_light(bits, first + slot);  // the bits are those of picked lights
+        rays.wanted = mine & is_picked(bits, first + slot, words);
         if (!lane_any(rays.wanted)) {
             slot = next_lobe(from, slot);
             continue;

@@ -19,6 +19,7 @@ LISTS = [("opencl_tests", "ClusterGrid.*:BuildClusters.*:Slice.*:MakeView.*:Refi
          ("opencl_tests", "LightLists.*:CountLights.*:MaskTiles.*:BinPixels.*"), ("opencl_tests", "CullLights.*")]
 LIGHTS = [("opencl_tests", "PrepareLights.*:MoveLights.*:DriftLights.*"), ("render_tests", "LightOrder.*:Samples.*")]
 PROFILES = [("measure_tests", "LightProfile.*"), ("render_tests", "LightProfiles.*")]
+AREA = [("measure_tests", "Area*.*:Ggx*.*:SampleShape.*"), ("render_tests", "AreaLights.*:Soft*.*")]
 TREE = [("opencl_tests", "LightTreeKernels.*"), ("render_tests", "LightTreePictures.*")]
 TAILS = [("render_tests", "Tails.*")]
 BLOOM = [("render_tests", "Bloom.*")]
@@ -34,6 +35,7 @@ STEPS = (
     (r"shared/surface_scene", SURFACES + TRIANGLES + PICTURES),
     (r"shared/(hash|lights/light_(drift|order|transform)|light\.)", LIGHTS + LIGHTING + TAILS),
     (r"shared/light_profile", PROFILES),
+    (r"shared/(area/|angle|light_extras)", AREA + PROFILES),
     (r"shared/lights/light_tree", TREE),
     (r"shared/shadow", SHADOWS),
     (r"shared/(tone_curve|srgb_code)", DISPLAY + BACKGROUND),

@@ -37,12 +37,12 @@ struct Patch {
     double density(double u) const { return round ? std::cos(u) * std::cos(u) : 1.0 - u; }
 };
 
-struct Cell {
+struct QuadratureCell {
     std::size_t patch = 0;
     double u0 = 0.0, u1 = 0.0, v0 = 0.0, v1 = 0.0;
     dvec3 value{0.0};
     double size = 0.0, error = 0.0;  // of the integral of the absolute value; of value
-    bool operator<(const Cell& other) const { return error < other.error; }
+    bool operator<(const QuadratureCell& other) const { return error < other.error; }
 };
 
 struct Rule {
@@ -79,7 +79,7 @@ class Integrator {
         for (std::size_t i = 0; i < patches_.size(); ++i)
             add({i, patches_[i].u0, patches_[i].u1, patches_[i].v0, 1.0});
         while (!cells_.empty() && cells_.size() < kCells && error_ > tolerance * size_) {
-            const Cell worst = cells_.top();
+            const QuadratureCell worst = cells_.top();
             cells_.pop();
             error_ -= worst.error;
             size_ -= worst.size;
@@ -102,7 +102,7 @@ class Integrator {
         return result;
     }
 
-    void split(Cell cell, bool first) {
+    void split(QuadratureCell cell, bool first) {
         const Patch& patch = patches_[cell.patch];
         const auto sides = lengths(cell, patch);
         double& low = sides[0] > sides[1] ? cell.u0 : cell.v0;
@@ -111,7 +111,7 @@ class Integrator {
         add(cell);
     }
 
-    static std::array<double, 2> lengths(const Cell& cell, const Patch& patch) {
+    static std::array<double, 2> lengths(const QuadratureCell& cell, const Patch& patch) {
         const double u = std::midpoint(cell.u0, cell.u1), v = std::midpoint(cell.v0, cell.v1);
         const auto between = [&](double ua, double va, double ub, double vb) {
             return glm::distance(patch.point(ua, va), patch.point(ub, vb));
@@ -123,7 +123,7 @@ class Integrator {
     }
 
     // Small cells are evaluated, others split.
-    void add(Cell cell) {
+    void add(QuadratureCell cell) {
         const Patch& patch = patches_[cell.patch];
         const auto sides = lengths(cell, patch);
         const dvec3 middle =
@@ -145,7 +145,8 @@ class Integrator {
         cells_.push(cell);
     }
 
-    dvec3 apply(const Rule& rule, const Cell& cell, const Patch& patch, double& size) const {
+    dvec3 apply(const Rule& rule, const QuadratureCell& cell, const Patch& patch,
+                double& size) const {
         const double half_u = 0.5 * (cell.u1 - cell.u0), half_v = 0.5 * (cell.v1 - cell.v0);
         const double u = std::midpoint(cell.u0, cell.u1), v = std::midpoint(cell.v0, cell.v1);
         // The distance of the plane times the area of (x, y), the same for all its points.
@@ -169,7 +170,7 @@ class Integrator {
 
     std::vector<Patch> patches_;
     const AreaIntegrand& integrand_;
-    std::priority_queue<Cell> cells_;
+    std::priority_queue<QuadratureCell> cells_;
     double size_ = 0.0, error_ = 0.0;
 };
 
