@@ -110,4 +110,34 @@ inline std::vector<double> picture_differences(const Frame& a, const Frame& b) {
     return out;
 }
 
+/// The sum of the absolute differences over the sum of the first one's values.
+inline double mean_difference(const Frame& a, const Frame& b) {
+    double difference = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < a.radiance.size(); ++i) {
+        difference += std::abs(double{b.radiance[i]} - a.radiance[i]);
+        sum += a.radiance[i];
+    }
+    return difference / sum;
+}
+
+/// The renderers whose fragments OpenGL shades round otherwise than `deferred` does.
+inline void expect_forward_pictures_near(const Scene& scene, RenderSettings settings,
+                                         double bound) {
+    const Frame deferred = render_once(scene, settings);
+    for (const RendererKind kind : {RendererKind::forward, RendererKind::forward_plus}) {
+        settings.renderer = kind;
+        EXPECT_LE(mean_difference(deferred, render_once(scene, settings)), bound)
+            << static_cast<int>(kind);
+    }
+}
+
+/// Lists and lanes change no bit of a picture, and some of it is lit.
+inline void expect_same_bits_without_lists(const Scene& scene, RenderSettings settings) {
+    const Frame listed = render_once(scene, settings);
+    EXPECT_GT(*std::ranges::max_element(listed.radiance), 0.01f);
+    settings.kernels.lanes = 4;
+    settings.renderer = RendererKind::deferred_all;
+    EXPECT_EQ(render_once(scene, settings).radiance, listed.radiance);
+}
+
 }  // namespace kilolux

@@ -50,11 +50,6 @@ SHARED_PLAIN_STRUCT(ShapeSample) {
 
 SHARED_FN FV3 lanes3(float4 v) { return fv3(fv(v.x), fv(v.y), fv(v.z)); }
 
-SHARED_FN FV3 pick3(MASK mask, FV3 a, FV3 b) {
-    return fv3(lane_select(mask, a.x, b.x), lane_select(mask, a.y, b.y),
-               lane_select(mask, a.z, b.z));
-}
-
 // a + b * s.
 SHARED_FN FV3 add_along(FV3 a, FV3 b, FV s) {
     return fv3(fma(b.x, s, a.x), fma(b.y, s, a.y), fma(b.z, s, a.z));
@@ -87,7 +82,7 @@ SHARED_FN FV most_cosine(FV highest, FV lowest) {
 }
 
 SHARED_FN FV3 higher(FV3 a, FV3 b, FV3 normal) {
-    return pick3(dot3(a, normal) < dot3(b, normal), b, a);
+    return select3(dot3(a, normal) < dot3(b, normal), b, a);
 }
 
 // Of an ellipse.
@@ -161,8 +156,8 @@ SHARED_FN FV3 fan_direction(IN(SeenShape) of, FV u, FV v) {
     FV of_first = AT(of).fan[0].solid_angle;
     MASK second = angle > of_first;
     angle = lane_select(second, angle - of_first, angle);
-    FV3 from = pick3(second, AT(of).fan[1].from, AT(of).fan[0].from);
-    FV3 to = pick3(second, AT(of).fan[1].to, AT(of).fan[0].to);
+    FV3 from = select3(second, AT(of).fan[1].from, AT(of).fan[0].from);
+    FV3 to = select3(second, AT(of).fan[1].to, AT(of).fan[0].to);
     FV volume = lane_select(second, AT(of).fan[1].volume, AT(of).fan[0].volume);
     FV cosines = lane_select(second, AT(of).fan[1].cosines, AT(of).fan[0].cosines);
     FV one_and = lane_select(second, AT(of).fan[1].one_and_cosine, AT(of).fan[0].one_and_cosine);
@@ -173,7 +168,7 @@ SHARED_FN FV3 fan_direction(IN(SeenShape) of, FV u, FV v) {
     FV length2 = dot3(middle, middle);
     FV by = fv(2.0f) * dot3(from, middle) / max(length2, fv(1e-30f));
     FV3 end = add_along(scale3(from, fv(-1.0f)), middle, by);
-    end = pick3(length2 > fv(1e-30f), end, from);
+    end = select3(length2 > fv(1e-30f), end, from);
     // The arc from the first corner to `end`, by 1 - cosine.
     FV3 to_end = sub3(end, AT(of).first);
     FV versine = fv(0.5f) * dot3(to_end, to_end);
@@ -213,7 +208,7 @@ SHARED_FN FV3 plane_point(IN(SeenShape) of, FV3 direction) {
     FV3 farthest = scale3(direction, AT(of).distance);
     FV distance = height / lane_select(slope == fv(0.0f), fv(1e-30f), slope);
     MASK is_near = distance < AT(of).distance;
-    return pick3(is_near, scale3(direction, max(distance, fv(0.0f))), farthest);
+    return select3(is_near, scale3(direction, max(distance, fv(0.0f))), farthest);
 }
 
 // 1 inside the ellipse, else 0. Its half axes need not be perpendicular.

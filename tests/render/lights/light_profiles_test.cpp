@@ -66,12 +66,8 @@ TEST(LightProfiles, ListsChangeNoBitInAnyMode) {
         RenderSettings settings = profile_settings();
         settings.shadows = shadows;
         settings.tails = tails;
-        const Frame listed = render_once(scene, settings);
-        EXPECT_GT(largest(listed.radiance), 0.01);
-        settings.kernels.lanes = 4;
-        settings.renderer = RendererKind::deferred_all;
-        EXPECT_EQ(render_once(scene, settings).radiance, listed.radiance)
-            << static_cast<int>(shadows);
+        SCOPED_TRACE(static_cast<int>(shadows));
+        expect_same_bits_without_lists(scene, settings);
     }
 }
 
@@ -97,19 +93,7 @@ TEST(LightProfiles, ShadeAsTheReferenceDoes) {
 
 // The forward renderers' shaders have the same text; they differ as they do without profiles.
 TEST(LightProfiles, ForwardRenderersHaveThem) {
-    const Scene scene = scene_with_profiles();
-    RenderSettings settings = profile_settings();
-    const Frame deferred = render_once(scene, settings);
-    for (const RendererKind kind : {RendererKind::forward, RendererKind::forward_plus}) {
-        settings.renderer = kind;
-        const Frame forward = render_once(scene, settings);
-        double difference = 0.0, sum = 0.0;
-        for (std::size_t i = 0; i < deferred.radiance.size(); ++i) {
-            difference += std::abs(double{forward.radiance[i]} - deferred.radiance[i]);
-            sum += deferred.radiance[i];
-        }
-        EXPECT_LE(difference / sum, 0.01) << static_cast<int>(kind);
-    }
+    expect_forward_pictures_near(scene_with_profiles(), profile_settings(), 0.01);
 }
 
 // Drawn ranges, and shadows of drawn lights, are unbiased.
