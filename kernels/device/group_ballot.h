@@ -7,9 +7,9 @@
 #define BALLOT_WORDS(flags) (3 * (((flags) + 31) / 32))
 
 typedef struct GroupBallot {
-    uint flags;   // the work-item's own
-    uint before;  // flags of the work-items before it
-    uint total;   // of the group
+    uint flag;    // the work-item's own
+    uint before;  // set flags of the work-items before it
+    uint total;   // set flags of the group
 } GroupBallot;
 
 // All work-items clear the ballots before the first turn. A barrier must follow.
@@ -17,15 +17,14 @@ static inline void clear_ballots(uint flags, uint group, local uint* ballots) {
     for (uint i = get_local_id(0); i < BALLOT_WORDS(flags); i += group) ballots[i] = 0u;
 }
 
-// flags: the work-item's as bits, `each` of them: 1, 2, 4, 8 or 16. ballots: [BALLOT_WORDS(group *
-// each)]. turn: of the calls, ascending. All work-items of the group must come here. One barrier
-// suffices: words that this turn counts are cleared in the next one, and set again in the third.
-// Flags come back from local memory, since PoCL 3.1 loses values that branches made at a barrier.
-static inline GroupBallot group_ballot(uint flags, uint each, uint group, uint turn,
-                                       local uint* ballots) {
-    uint bit = (uint)get_local_id(0) * each, words = BALLOT_WORDS(group * each) / 3u;
+// flag: the work-item's, 0 or 1. ballots: [BALLOT_WORDS(group)]. turn: of the calls, ascending. All
+// work-items of the group must come here. One barrier suffices: words that this turn counts are
+// cleared in the next one, and set again in the third. The flag comes back from local memory, since
+// PoCL 3.1 may lose a value that a branch made before a barrier.
+static inline GroupBallot group_ballot(uint flag, uint group, uint turn, local uint* ballots) {
+    uint bit = get_local_id(0), words = BALLOT_WORDS(group) / 3u;
     local uint* mine = ballots + turn % 3u * words;
-    if (flags != 0u) atomic_or(mine + bit / 32u, flags << (bit % 32u));
+    if (flag != 0u) atomic_or(mine + bit / 32u, 1u << (bit % 32u));
     barrier(CLK_LOCAL_MEM_FENCE);
     local uint* last = ballots + (turn + 2u) % 3u * words;
     for (uint i = get_local_id(0); i < words; i += group) last[i] = 0u;
@@ -37,7 +36,7 @@ static inline GroupBallot group_ballot(uint flags, uint each, uint group, uint t
                                           : 0u;
         out.total += popcount(bits);
     }
-    out.flags = (mine[bit / 32u] >> (bit % 32u)) & ((1u << each) - 1u);
+    out.flag = (mine[bit / 32u] >> (bit % 32u)) & 1u;
     return out;
 }
 #endif

@@ -8,9 +8,9 @@
 #include "kernels/device/group_ballot.h"
 #include "kernels/lists/cull_lights.h"
 
-#define BLOCK 64u                   // lights of a block
+#define BLOCK 32u                   // lights of a block
 #define SPAN 64u                    // blocks of a span
-#define SPAN_LIGHTS (BLOCK * SPAN)  // CullLights::kSpanLights
+#define SPAN_LIGHTS (BLOCK * SPAN)  // kLightsOfSpan of cull_lights.cpp
 
 static inline LightExtent empty_extent(void) {
     LightExtent e = {1u, 1u, 1u, 0u};  // from 1 to 0
@@ -21,9 +21,10 @@ static inline uint joined_interval(uint a, uint b) {
     return min(a & 0xffffu, b & 0xffffu) | (max(a >> 16, b >> 16) << 16);
 }
 
-// What both hold, and what lies between them. b: not empty.
+// What both hold, and what lies between them.
 static inline LightExtent joined_extent(LightExtent a, LightExtent b) {
     if (!touches_grid(a)) return b;
+    if (!touches_grid(b)) return a;
     a.columns = joined_interval(a.columns, b.columns);
     a.rows = joined_interval(a.rows, b.rows);
     a.slices = joined_interval(a.slices, b.slices);
@@ -32,11 +33,24 @@ static inline LightExtent joined_extent(LightExtent a, LightExtent b) {
 
 static inline LightExtent extent_of_all(global const LightExtent* extents, uint first, uint end) {
     LightExtent all = empty_extent();
-    for (uint i = first; i < end; ++i) {
-        LightExtent e = extents[i];
-        if (touches_grid(e)) all = joined_extent(all, e);
-    }
+    for (uint i = first; i < end; ++i) all = joined_extent(all, extents[i]);
     return all;
+}
+
+// The light that is farthest from the one before it: the order of lights jumps between cubes.
+static inline uint after_jump(global const float4* bounds, uint first, uint end) {
+    uint place = first;
+    float longest = 0.0f;
+    float3 last = bounds[first].xyz;
+    for (uint i = first + 1u; i < end; ++i) {
+        float3 at = bounds[i].xyz;
+        float3 step = at - last;
+        float jump = dot(step, step);
+        place = jump > longest ? i : place;
+        longest = max(longest, jump);
+        last = at;
+    }
+    return place;
 }
 
 static inline uint span_count(uint light_count) {
@@ -45,18 +59,21 @@ static inline uint span_count(uint light_count) {
 
 // One work-group takes one span.
 kernel void cull_lights_blocks(LIGHT_ARGS(const),
-                               global LightExtent* blocks,          // out [spans][SPAN]
+                               global LightExtent* blocks,          // out [spans][SPAN][2]
                                global LightExtent* restrict spans,  // out [spans]
                                global uint* restrict work_count) {  // out [1]: 0
     uint span = get_group_id(0);
     uint first_block = span * SPAN;
     for (uint b = get_local_id(0); b < SPAN; b += get_local_size(0)) {
         uint first = min((first_block + b) * BLOCK, light_count);
-        blocks[first_block + b] = extent_of_all(extents, first, min(first + BLOCK, light_count));
+        uint end = min(first + BLOCK, light_count);
+        uint jump = first < end ? after_jump(bounds, first, end) : end;
+        blocks[2u * (first_block + b)] = extent_of_all(extents, first, jump);
+        blocks[2u * (first_block + b) + 1u] = extent_of_all(extents, jump, end);
     }
     barrier(CLK_GLOBAL_MEM_FENCE);
     if (get_local_id(0) != 0) return;
-    spans[span] = extent_of_all(blocks, first_block, first_block + SPAN);
+    spans[span] = extent_of_all(blocks, 2u * first_block, 2u * (first_block + SPAN));
     if (span == 0u) work_count[0] = 0u;
 }
 
@@ -81,7 +98,7 @@ typedef struct LightBlocks {
     global const ShadeLight* lights;
     global const float4* bounds;
     global const LightExtent* extents;
-    global const LightExtent* blocks;
+    global const LightExtent* blocks;  // two each: before and after the longest jump
     global const LightExtent* spans;
     uint count;  // of lights
 } LightBlocks;
@@ -105,10 +122,11 @@ static inline uint find_blocks(LightBlocks from, BoxedCluster c, uint span, Grou
     uint found = 0u;
     for (uint first = 0; first < SPAN; first += GROUP) {
         uint b = first + (uint)get_local_id(0);
-        uint flag = extent_holds(from.blocks[span * SPAN + min(b, SPAN - 1u)], c);
+        uint at = 2u * (span * SPAN + min(b, SPAN - 1u));
+        uint flag = extent_holds(from.blocks[at], c) | extent_holds(from.blocks[at + 1u], c);
         flag &= select(0u, 1u, b < SPAN);
-        GroupBallot ballot = group_ballot(flag, 1u, GROUP, sink->turn++, memory->ballots);
-        if (ballot.flags != 0u) memory->blocks[found + ballot.before] = (uchar)b;
+        GroupBallot ballot = group_ballot(flag, GROUP, sink->turn++, memory->ballots);
+        if (ballot.flag != 0u) memory->blocks[found + ballot.before] = (uchar)b;
         found += ballot.total;
     }
     barrier(CLK_LOCAL_MEM_FENCE);  // the blocks are there
@@ -124,9 +142,9 @@ static inline void gather_span(LightBlocks from, BoxedCluster c, uint span, Grou
         uint light = (span * SPAN + block) * BLOCK + i % BLOCK;
         uint flag = i < found * BLOCK && light < from.count &&
                     is_listed(c, from.lights, from.bounds, from.extents, light);
-        GroupBallot ballot = group_ballot(flag, 1u, GROUP, sink->turn++, memory->ballots);
+        GroupBallot ballot = group_ballot(flag, GROUP, sink->turn++, memory->ballots);
         uint place = sink->place + ballot.before;
-        if (ballot.flags != 0u && place < sink->capacity) sink->lists[place] = (LIGHT_INDEX)light;
+        if (ballot.flag != 0u && place < sink->capacity) sink->lists[place] = (LIGHT_INDEX)light;
         sink->place += ballot.total;
     }
 }

@@ -4,7 +4,6 @@
 //   (prefix_sum over tiles)
 //   refine_lights          the lists, ascending, one after the other within the tile's reserve
 // One work-group takes one tile; its GROUP work-items test VW lights each at a time.
-#include "kernels/device/group_ballot.h"
 #include "kernels/device/lit_item.h"
 #include "kernels/lists/coarse_tile.h"
 #include "kernels/lists/light_reach.h"
@@ -87,9 +86,8 @@ static inline UV reaching_lanes(ActiveCluster c, global const ShadeLight* lights
 }
 
 // Appends the flagged lights in order and returns how many there were in the whole work-group.
-// turn: see group_ballot().
 static inline uint append(UV flags, const Batch* batch, global LIGHT_INDEX* out, uint room,
-                          uint turn, local uint* ballots) {
+                          local uint* ballots) {
     uint flag[VW];
     lane_store(flags, flag);
 #if GROUP == 1
@@ -110,17 +108,31 @@ static inline uint append(UV flags, const Batch* batch, global LIGHT_INDEX* out,
     }
     return count;
 #else
-    uint bits = 0u;
-    for (uint i = 0; i < VW; ++i) bits |= flag[i] << i;
-    GroupBallot ballot = group_ballot(bits, VW, GROUP, turn, ballots);
+    // Rank of a light: set flags of the batch before it, from ballots of 32 in local memory.
+    uint item = get_local_id(0);
+    if (item < (BATCH + 31) / 32) ballots[item] = 0;
+    barrier(CLK_LOCAL_MEM_FENCE);  // cleared before any bit is set
     for (uint i = 0; i < VW; ++i) {
-        uint is_flagged = (ballot.flags >> i) & 1u;
-        if (is_flagged != 0u && ballot.before < room) {
-            out[ballot.before] = (LIGHT_INDEX)batch->light[i];
-        }
-        ballot.before += is_flagged;
+        uint bit = item * VW + i;
+        if (flag[i]) atomic_or(&ballots[bit / 32], 1u << (bit % 32));
     }
-    return ballot.total;
+    barrier(CLK_LOCAL_MEM_FENCE);  // all bits are set before any is counted
+    uint total = 0;
+    uint before = 0;
+    for (uint word = 0; word < (BATCH + 31) / 32; ++word) {
+        uint bits = ballots[word];
+        uint bit = item * VW;
+        before += word < bit / 32    ? popcount(bits)
+                  : word == bit / 32 ? popcount(bits & ((1u << (bit % 32)) - 1u))
+                                     : 0u;
+        total += popcount(bits);
+    }
+    for (uint i = 0; i < VW; ++i) {
+        if (flag[i] && before < room) out[before] = (LIGHT_INDEX)batch->light[i];
+        before += flag[i];
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);  // ballots are counted before the next batch clears them
+    return total;
 #endif
 }
 
@@ -128,10 +140,7 @@ kernel void refine_lights(LIGHT_ARGS(const), View view, COARSE_LIST_ARGS(const),
                           CLUSTER_ARGS(),  // in/out: the clusters' lists set
                           global const uint* restrict list_offsets,  // [tiles + 1], reserves
                           LIST_ARGS()) {
-    local uint ballots[BALLOT_WORDS(BATCH)];
-    clear_ballots(BATCH, GROUP, ballots);
-    barrier(CLK_LOCAL_MEM_FENCE);
-    uint turn = 0;
+    local uint ballots[(BATCH + 31) / 32];
     uint tile = get_group_id(0);
     uint place = list_offsets[tile];
     Clusters active = CLUSTERS_OF_ARGS;
@@ -148,7 +157,7 @@ kernel void refine_lights(LIGHT_ARGS(const), View view, COARSE_LIST_ARGS(const),
             UV flags = (UV)(0u);
             if (batch.count > 0u) flags = reaching_lanes(c, lights, bounds, &batch);
             uint room = place < list_capacity ? list_capacity - place : 0u;
-            place += append(flags, &batch, lists + place, room, turn++, ballots);
+            place += append(flags, &batch, lists + place, room, ballots);
         }
 #if GROUP > 1
         barrier(CLK_GLOBAL_MEM_FENCE);  // all have read the cluster before its list is set

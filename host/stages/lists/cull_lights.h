@@ -70,6 +70,7 @@ class CullLights {
     };
 
     Tuning tuning_;
+    std::size_t groups_;  // that share the clusters
     KernelProgram program_;
     Kernel count_, offset_, fill_, brute_force_;
     std::optional<Blocks> blocks_;  // of work-groups
