@@ -36,13 +36,12 @@ struct Tuning {
     int shade_rows = 1;   // rows of a shading work-group: 1..16
     int shade_stage = 0;  // lights that a shading work-group stages in local memory; 0: none, else
                           // shade_rows is 16
-    int shade_prefetch = 0;    // 1: shading asks for the next tile's pixels ahead, and
-                               // resolve_surfaces for texels; 0: they do not
-    int cull_group = 1;        // work-items that share a light's clusters
-    int cull_chunks = 8;       // contiguous chunks of lights, a work-group each
-    int most_cull_chunks = 0;  // the same with many lights, where that is more
-    int refine_group = 1;      // work-items that share a tile's lists
-    int prefix_group = 1;      // work-items of a block of the prefix sum
+    int shade_prefetch = 0;  // 1: shading asks for the next tile's pixels ahead, and
+                             // resolve_surfaces for texels; 0: they do not
+    int cull_group = 1;      // work-items that share a cluster's lights; 1: none do
+    int cull_chunks = 8;     // contiguous chunks of lights, of triangles
+    int refine_group = 1;    // work-items that share a tile's lists
+    int prefix_group = 1;    // work-items of a block of the prefix sum
     int prefix_per_item = 16384;
     int tile_group = 1;    // work-items that share a tile's pixels
     int light_group = 1;   // work-items of prepare_lights, build_clusters and other maps

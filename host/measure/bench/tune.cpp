@@ -45,7 +45,6 @@ std::vector<Dimension> dimensions_of(const DeviceInfo& device) {
                 {"cull_chunks",
                  &Tuning::cull_chunks,
                  {units, 2 * units, 4 * units, 8 * units, 16 * units}},
-                {"cull_group", &Tuning::cull_group, {1, 4}},
                 {"refine_group", &Tuning::refine_group, {1, 4}},
                 {"tile_group", &Tuning::tile_group, {1, 4, 16}},
                 {"light_group", &Tuning::light_group, {1, 4, 16, 64}}};
@@ -56,7 +55,7 @@ std::vector<Dimension> dimensions_of(const DeviceInfo& device) {
             {"cull_chunks",
              &Tuning::cull_chunks,
              {units, 4 * units, 8 * units, 16 * units, 32 * units, 64 * units}},
-            {"cull_group", &Tuning::cull_group, {1, 8, 32, 64, 128, 256}},
+            {"cull_group", &Tuning::cull_group, {32, 64, 128, 256}},
             {"refine_group", &Tuning::refine_group, {16, 32, 64, 128, 256}},
             {"tile_group", &Tuning::tile_group, {16, 32, 64, 128, 256}},
             {"light_group", &Tuning::light_group, {32, 64, 128, 256}}};

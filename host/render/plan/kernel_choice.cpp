@@ -11,10 +11,6 @@
 namespace kilolux {
 namespace {
 
-// Tunings are measured with thousands of lights. With a million a GPU hides the waits of a chunk's
-// walk behind other chunks, so it gets this many times as many.
-constexpr int kManyLights = 8;
-
 // Begins to build programs that depend on no scene and that most pictures need. The cache keeps
 // them for the stages that are made later; a program that is not named here is built then.
 void build_ahead(const Gpu& gpu, const Tuning& tuning) {
@@ -32,12 +28,7 @@ StoredTuning choose_tuning(const DeviceInfo& device, const KernelSettings& setti
     StoredTuning choice = known_tuning(device);
     if (settings.lanes > 0) choice.lanes = settings.lanes;
     if (settings.group_height > 0) choice.tuning.shade_rows = settings.group_height;
-    int& chunks = choice.tuning.cull_chunks;
-    if (settings.chunks > 0) {
-        chunks = settings.chunks;
-    } else if (!device.is_cpu) {
-        choice.tuning.most_cull_chunks = kManyLights * chunks;
-    }
+    if (settings.chunks > 0) choice.tuning.cull_chunks = settings.chunks;
     return choice;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "host/gpu/flow.h"
 #include "host/gpu/stage_info.h"
@@ -14,7 +15,8 @@ inline constexpr StageInfo kCullLightsStage = {"cull_lights", StageGroup::lists,
 
 /// Lists, for each coarse cluster, the lights whose sphere (and cone) touches the cluster's box.
 ///
-/// A stable counting sort: count by (chunk, cluster), prefix sum, fill. No light is ever left out:
+/// A stable counting sort: count by (chunk, cluster), prefix sum, fill. Work-items alone walk the
+/// lights, work-groups the clusters: see kernels/lists/cull_lights.h. No light is ever left out:
 /// the lists have as many entries as there are pairs. enqueue() works with the room of the last
 /// frame; when that was too little, fits() grows it and the caller enqueues the frame's lists
 /// again.
@@ -45,11 +47,33 @@ class CullLights {
 
  private:
     std::size_t cursor_stride(const ClusterGrid& grid) const;
+    std::size_t chunk_count(std::size_t lights) const;
     CoarseLists lists_so_far(const DeviceArray<uint>& offsets) const;
+    // Makes coarse lists of the counts by chunk and cluster that count() enqueues, with
+    // fill(lists).
+    CoarseLists sort_pairs(const ClusterGrid& grid, std::size_t chunks, StageTimer& timer,
+                           auto&& count, auto&& fill);
+
+    // What work-groups skip by, and the clusters that they take.
+    struct Blocks {
+        Blocks(const Gpu& gpu, const KernelProgram& program);
+        Kernel find_extents, find_clusters;
+        GrowingArray<LightExtent> blocks, spans;
+        GrowingArray<uint> work_count, work;
+
+        void each(auto&& set) const {  // BLOCK_ARGS of kernels/lists/cull_lights_by_group.cl
+            set("blocks", blocks.get());
+            set("spans", spans.get());
+            set("work_count", work_count.get());
+            set("work", work.get());
+        }
+    };
 
     Tuning tuning_;
+    std::size_t groups_;  // that share the clusters
     KernelProgram program_;
     Kernel count_, offset_, fill_, brute_force_;
+    std::optional<Blocks> blocks_;  // of work-groups
     GrowingArray<uint> cursors_;
     CountedList lists_;
 };

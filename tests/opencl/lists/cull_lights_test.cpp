@@ -223,7 +223,7 @@ TEST(CullLights, ListsAreTheSameForEveryTuningLaneWidthAndRun) {
     }
 }
 
-void expect_all_listed(uint count) {
+void expect_all_listed(uint count, const Tuning& tuning) {
     const Gpu gpu = test_gpu();
     KernelFeatures features;
     features.light_index_bits = count <= 65536 ? 16 : 32;
@@ -232,21 +232,57 @@ void expect_all_listed(uint count) {
     const GBuffer gbuffer =
         upload_gbuffer(gpu, make_synthetic(view, features, noise_depth(2.0, 3.0, 0, 1)));
     const std::vector<Light> lights(count, point_light({}, 100.0));
-    const HostLists lists =
-        download_lists(gpu, features,
-                       list_everywhere(gpu, default_tuning(gpu.info), features,
-                                       {gbuffer, upload_lights(gpu, lights), grid}));
+    const HostLists lists = download_lists(
+        gpu, features,
+        list_everywhere(gpu, tuning, features, {gbuffer, upload_lights(gpu, lights), grid}));
     ASSERT_EQ(lists.clusters.size(), 1u);
     const auto list = lists.refined_of(lists.clusters.front());
     std::vector<uint> expected(count);
     std::iota(expected.begin(), expected.end(), 0u);
     EXPECT_TRUE(std::equal(list.begin(), list.end(), expected.begin(), expected.end()))
-        << count << " lights";
+        << count << " lights, listed " << list.size() << ": " << (list.empty() ? 0 : list.front())
+        << " to " << (list.empty() ? 0 : list.back());
 }
 
 TEST(CullLights, HoldsAnyNumberOfLightsInOneCluster) {
-    for (const uint count : {0u, 1u, 2u, 255u, 256u, 257u, 65535u, 65536u, 65537u, 100000u})
-        expect_all_listed(count);
+    Tuning groups = default_tuning(test_gpu().info);
+    groups.cull_group = 64;
+    for (const uint count :
+         {0u, 1u, 2u, 63u, 64u, 65u, 4095u, 4096u, 4097u, 65535u, 65536u, 65537u, 100000u}) {
+        expect_all_listed(count, default_tuning(test_gpu().info));
+        expect_all_listed(count, groups);
+    }
+}
+
+// Whatever the order of the lights: neighbours beside each other, with jumps, of which groups skip
+// most; and lights of every size at random, of which they can skip none.
+TEST(CullLights, GroupsSkipNoLightThatReachesACluster) {
+    const Gpu gpu = test_gpu();
+    const auto scenarios = cull_scenarios();
+    CullScenario scenario = *std::ranges::find(scenarios, "smooth", &CullScenario::name);
+    scenario.light_count = 20'000;
+    CullCase c = make_cull_case(gpu, scenario);
+    const auto expect_all = [&] {
+        for (const int group : {1, 32, 64, 256}) {
+            SCOPED_TRACE(group);
+            Tuning tuning = default_tuning(gpu.info);
+            tuning.cull_group = group;
+            const ListedLights device = list_everywhere(
+                gpu, tuning, c.features, {c.gbuffer, upload_lights(gpu, c.lights), c.grid});
+            expect_as_brute_force(gpu, c, device, download_lists(gpu, c.features, device));
+        }
+    };
+    expect_all();
+    for (std::size_t i = 0; i < c.lights.size(); ++i) {
+        // Runs of 50 lights lie along a ray; the last block of each span lies elsewhere.
+        const auto run = static_cast<double>(i / 50);
+        const double depth = 1.0 + static_cast<double>(i % 50);
+        const double side = i % 2048 < 2016 ? 0.3 : -0.3;
+        const double x = side * (0.6 + 0.3 * std::sin(0.02 * run)), y = side * std::cos(0.03 * run);
+        const glm::dvec3 place{x * depth, y * depth, -depth};
+        c.lights[i] = point_light(world_from_view(c.gbuffer.view, place), 0.05 * depth);
+    }
+    expect_all();
 }
 
 TEST(CullLights, LacksRoomOnceThenGrows) {

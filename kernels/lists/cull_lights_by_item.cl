@@ -1,25 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists the lights of every coarse cluster: a stable counting sort of (light, cluster) pairs.
-//
-//   cull_lights_count   pairs by (chunk of lights, cluster)
-//   cull_lights_offset  where each chunk's pairs begin within each cluster, and its total
-//   (prefix_sum over clusters)
-//   cull_lights_fill    writes the light indices
-//
-// A work-group walks one contiguous chunk of the lights in order and spreads one light's rows of
-// clusters over its work-items, so no two of them ever meet in a cluster: lists ascend by light
-// index without atomics, and are the same for every group size and number of chunks.
-#include "kernels/device/arguments.h"
-#include "kernels/device/chunk_starts.h"
-#include "kernels/lists/light_reach.h"
-
-typedef struct ClusterBoxes {
-    global const float2* columns;  // [slices][tiles_x]
-    global const float2* rows;     // [slices][tiles_y]
-    global const float2* depths;   // [slices]
-    // [cluster_count]: 0 for clusters that need no list; null: all do
-    global const uchar* occupied;
-} ClusterBoxes;
+// cull_lights for devices whose work-items work alone: a stable counting sort of (light, cluster)
+// pairs. A work-item walks one contiguous chunk of the lights in order, so lists ascend by light
+// index without atomics.
+#include "kernels/lists/cull_lights.h"
 
 // The target of pairs: counted, or filled in.
 typedef struct PairSink {
@@ -51,10 +34,6 @@ typedef struct ClusterRow {
     uint first, end;
     float dy, dz;
 } ClusterRow;
-
-static inline bool needs_list(ClusterBoxes boxes, uint cluster) {
-    return !boxes.occupied || boxes.occupied[cluster] != 0;
-}
 
 static inline ClusterRow cluster_row(ClusterGrid grid, ClusterBoxes boxes, LightExtent extent,
                                      uint slice, uint row) {
@@ -108,7 +87,7 @@ static inline void walk_light(Candidate c, ClusterGrid grid, ClusterBoxes boxes,
     uint first_row = c.extent.rows & 0xffffu;
     uint row_count = (c.extent.rows >> 16) + 1u - first_row;
     uint total = ((c.extent.slices >> 16) + 1u - first_slice) * row_count;
-    for (uint i = get_local_id(0); i < total; i += get_local_size(0)) {
+    for (uint i = 0; i < total; ++i) {
         ClusterRow r = cluster_row(grid, boxes, c.extent, first_slice + i / row_count,
                                    first_row + i % row_count);
         if (r.first >= r.end) continue;
@@ -120,30 +99,17 @@ static inline void walk_light(Candidate c, ClusterGrid grid, ClusterBoxes boxes,
     }
 }
 
-static inline bool is_empty_interval(uint packed) { return (packed & 0xffffu) > (packed >> 16); }
-
-static inline bool touches_grid(LightExtent e) {
-    return !is_empty_interval(e.slices) && !is_empty_interval(e.columns) &&
-           !is_empty_interval(e.rows);
-}
-
-// This work-group's chunk. Neighbouring groups get chunks far apart, since threads of a CPU take
-// neighbouring groups and neighbouring lights cost alike: lights near the camera are in many
-// clusters. The factor is a prime above every number of chunks, so each chunk belongs to one group.
-static inline size_t chunk_of_group(void) {
+// This work-item's chunk. Neighbouring work-groups get chunks far apart, since threads of a CPU
+// take neighbouring groups and neighbouring lights cost alike: lights near the camera are in many
+// clusters. The factor is a prime above every number of chunks, so each chunk belongs to one item.
+static inline size_t chunk_of_item(void) {
     return (ulong)get_group_id(0) * 2654435761ul % get_num_groups(0);
-}
-
-// The lights of a chunk: [first, end).
-static inline uint2 lights_of_chunk(uint count, ulong chunk) {
-    ulong chunks = get_num_groups(0);
-    return (uint2)((uint)(count * chunk / chunks), (uint)(count * (chunk + 1u) / chunks));
 }
 
 static inline void walk_chunk(global const ShadeLight* lights, global const float4* bounds,
                               global const LightExtent* extents, uint count, ClusterGrid grid,
                               ClusterBoxes boxes, PairSink sink, bool fill) {
-    uint2 chunk = lights_of_chunk(count, chunk_of_group());
+    uint2 chunk = part_of_chunk(count, chunk_of_item(), get_num_groups(0));
     for (uint light = chunk.x; light < chunk.y; ++light) {
         Candidate c;
         c.extent = extents[light];
@@ -155,8 +121,6 @@ static inline void walk_chunk(global const ShadeLight* lights, global const floa
         c.spot = lights[light];
 #endif
         walk_light(c, grid, boxes, sink, fill);
-        // The next light's rows may fall to other work-items: they must see this one's cursors.
-        barrier(CLK_GLOBAL_MEM_FENCE);
     }
 }
 
@@ -166,20 +130,9 @@ kernel void cull_lights_count(
     global uint* restrict cursors) {        // out [chunks][cursor_stride]: pairs
     ClusterBoxes boxes = {columns, rows, depths, occupied};
     uint stride = cursor_stride(grid.cluster_count);
-    PairSink sink = {cursors + chunk_of_group() * stride, 0, 0, 0u};
-    for (uint i = get_local_id(0); i < stride; i += get_local_size(0)) sink.cursors[i] = 0u;
-    // All work-items zero the cursors before any counts.
-    barrier(CLK_GLOBAL_MEM_FENCE);
+    PairSink sink = {cursors + chunk_of_item() * stride, 0, 0, 0u};
+    for (uint i = 0; i < stride; ++i) sink.cursors[i] = 0u;
     walk_chunk(lights, bounds, extents, light_count, grid, boxes, sink, false);
-}
-
-// One work-item for VW clusters: chunk counts become chunk starts within the cluster.
-kernel void cull_lights_offset(
-    uint cluster_count, uint chunk_count,
-    global uint* restrict cursors,   // in: pairs, out: starts [chunk_count][cursor_stride]
-    global uint* restrict counts) {  // out [cursor_stride]: pairs of each cluster
-    uint cluster = (uint)get_global_id(0) * VW;
-    if (cluster < cluster_count) chunk_starts(cursors, cluster_count, chunk_count, cluster, counts);
 }
 
 kernel void cull_lights_fill(
@@ -187,45 +140,7 @@ kernel void cull_lights_fill(
     global uint* restrict cursors,  // in: starts [chunks][cursor_stride]; used up
     COARSE_LIST_ARGS()) {           // out: lists
     ClusterBoxes boxes = {columns, rows, depths, occupied};
-    PairSink sink = {cursors + chunk_of_group() * cursor_stride(grid.cluster_count), coarse_offsets,
+    PairSink sink = {cursors + chunk_of_item() * cursor_stride(grid.cluster_count), coarse_offsets,
                      coarse_lists, coarse_capacity};
     walk_chunk(lights, bounds, extents, light_count, grid, boxes, sink, true);
-}
-
-static inline bool holds(uint interval, uint i) {
-    return (interval & 0xffffu) <= i && i <= (interval >> 16);
-}
-
-// The oracle: every light against every cluster. One work-item a cluster. With `lists` null it
-// counts, else it fills at `offsets`. Tests use it, and benchmarks as a baseline.
-kernel void cull_lights_brute_force(LIGHT_ARGS(const), BOX_ARGS(const), uint fill,
-                                    global uint* restrict counts,  // out [cluster_count]
-                                    COARSE_LIST_ARGS()) {          // out: lists, if fill
-    uint cluster = get_global_id(0);
-    if (cluster >= grid.cluster_count) return;
-    uint column = cluster % grid.tiles_x;
-    uint row = cluster / grid.tiles_x % grid.tiles_y;
-    uint slice = cluster / grid.tiles_x / grid.tiles_y;
-    float2 x = columns[slice * grid.tiles_x + column];
-    float2 y = rows[slice * grid.tiles_y + row];
-    float2 z = depths[slice];
-    uint found = 0;
-    for (uint light = 0; light < light_count; ++light) {
-        float4 b = bounds[light];
-        bool reaches =
-            sphere_reaches(interval_distance(b.x, x.x, x.y), interval_distance(b.y, y.x, y.y),
-                           interval_distance(-b.z, z.x, z.y), b.w);
-#if HAS_SPOT_LIGHTS
-        reaches = reaches &&
-                  cone_reaches(lights[light], (float3)(x.x, y.x, -z.y), (float3)(x.y, y.y, -z.x));
-#endif
-        // A box reaches beyond its cluster's part of the view: there the light's extent decides.
-        LightExtent e = extents[light];
-        reaches =
-            reaches && holds(e.columns, column) && holds(e.rows, row) && holds(e.slices, slice);
-        if (!reaches) continue;
-        if (fill) coarse_lists[coarse_offsets[cluster] + found] = (LIGHT_INDEX)light;
-        ++found;
-    }
-    counts[cluster] = found;
 }
