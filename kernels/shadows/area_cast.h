@@ -48,16 +48,14 @@ static inline void shade_targets(const FV3* v, uint child, ShadowScene scene, Sh
     points->row_count = count;
 }
 
-// Whether any of the triangles may hide a target from a point.
-static inline bool shade_found_targets(ShadowScene scene, ShadowLight light, Shaft shaft,
+// Tests triangles that the walk found.
+static inline void shade_found_targets(ShadowScene scene, ShadowLight light, Shaft shaft,
                                        const uint* found, uint count, ShadowPoints* points) {
-    bool any = false;
     for (uint first = 0; first < count; first += VW) {
         FV3 v[3];
         load_casters(scene, found + first, v);
         uint bits =
             lane_ballot(may_part(shaft, light, v) & lane_mask(lane_numbers < (UV)(count - first)));
-        any |= bits != 0u;
         for (; bits != 0u; bits &= bits - 1u) {
             uint child = found[first + lowest_bit(bits)];
             global const float* t = scene.casters + (ulong)caster_of(scene, child) * 9u;
@@ -65,7 +63,6 @@ static inline bool shade_found_targets(ShadowScene scene, ShadowLight light, Sha
             shade_targets(one, child, scene, light, points);
         }
     }
-    return any;
 }
 #endif
 #endif

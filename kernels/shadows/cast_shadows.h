@@ -88,6 +88,15 @@ static inline bool any_word(global const uint* words, uint count) {
     return bits != 0u;
 }
 
+// Whether any pixel picks a light whose first slot's words are `words`, `count` for each slot.
+static inline bool is_picked_by_any(CastLights from, uint j, global const uint* words, uint count) {
+    bool any = false;
+    for (uint slot = 0; slot < slots_of(from, j); slot = next_lobe(from, slot)) {
+        any |= any_word(words + slot * count, count);
+    }
+    return any;
+}
+
 kernel void cast_shadows_reserve(uint tile_count, uint directional_count,
                                  uint slots,                        // of each light of a list
                                  CLUSTER_ARGS(),                    // in/out: shadow_words set
