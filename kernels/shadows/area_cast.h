@@ -8,11 +8,10 @@
 #include "kernels/shadows/shadow_shaft.h"
 
 #if AREA_SHADOWS
-// The part of `lit` that a triangle hides from the lane's target. v: its corners, in all lanes.
-static inline MASK hidden_by(const FV3* v, uint child, ShadowScene scene, LaneLight light,
-                             FV3 point, MASK lit) {
-    MASK shaded = lit & passes_box(light, point, boxes_of(v));
-    if (!lane_any(shaded)) return shaded;
+// The part of `shaded`, of rays that pass the triangle's box, where it hides the lane's target. v:
+// its corners, in all lanes.
+static inline MASK hidden_in_box(const FV3* v, uint child, ShadowScene scene, LaneLight light,
+                                 FV3 point, MASK shaded) {
     MASK sure;
     ShadowTriangles t = set_up_shadow(v, light, scene.view.extent, &sure);
     FV3 d = sub3(point, light.at);
@@ -28,6 +27,13 @@ static inline MASK hidden_by(const FV3* v, uint child, ShadowScene scene, LaneLi
     }
 #endif
     return shaded;
+}
+
+// The part of `lit` that a triangle hides from the lane's target.
+static inline MASK hidden_by(const FV3* v, uint child, ShadowScene scene, LaneLight light,
+                             FV3 point, MASK lit) {
+    MASK shaded = lit & passes_box(light, point, boxes_of(v));
+    return lane_any(shaded) ? hidden_in_box(v, child, scene, light, point, shaded) : shaded;
 }
 
 // Tests one triangle on the rays of all rows with lit points.
