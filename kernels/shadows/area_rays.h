@@ -94,7 +94,7 @@ static inline void cast_rays(ShadowScene scene, ShadowLight light, float rays_of
 static inline void cast_area_light(ShadowScene scene, ShadowLight light, CastLights from,
                                    SlotWords to, const ShadowPoints* points, AreaRays* rays) {
     rays->count = 0u;
-    for (uint slot = 0; slot < light_slots(from.rays);) {
+    for (uint slot = 0; slot < ray_slots(from.rays);) {
         global const uint* words = to.words + slot * to.count;
         uint any = 0u;
         for (uint i = 0; i < to.count; ++i) {

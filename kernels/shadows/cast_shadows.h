@@ -53,9 +53,9 @@ static inline uint key_of_tile(View view, CastLights from, uint tile) {
     return tile_key(view, from.seed, tile % tiles_x * FINE_TILE, tile / tiles_x * FINE_TILE);
 }
 
-// Slots of the j-th light of a cluster, and of all before it.
+// Slots of the rays to the j-th light of a cluster, and all slots before them.
 static inline uint slots_of(CastLights from, uint j) {
-    return j < from.directional_count ? 1u : light_slots(from.rays);
+    return j < from.directional_count ? 1u : ray_slots(from.rays);
 }
 static inline uint slots_before(CastLights from, uint j) {
     return j < from.directional_count

@@ -109,8 +109,9 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void cast_shadows(
     FOR_EACH_CLUSTER(i, active, tile) {
         bits.end = bits.first + clusters[i].pixel_count;
         uint count = shadow_words(bits.first, bits.end);
-        for (uint j = 0; j < count_of_cluster(from, clusters + i);
-             bits.words += slots_of(from, j++) * count) {
+        global uint* cluster_words = bits.words;
+        for (uint j = 0; j < count_of_cluster(from, clusters + i); ++j) {
+            bits.words = cluster_words + slots_before(from, j) * count;
 #if PICKED_ONLY
             if (!is_picked_by_any(from, j, bits.words, count)) continue;
 #endif
@@ -124,6 +125,8 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void cast_shadows(
 #endif
             cast_light(scene, light, bits, &points);
         }
+        bits.words =
+            cluster_words + slots_before(from, count_of_cluster(from, clusters + i)) * count;
         bits.first = bits.end;
     }
 #if AREA_SHADOWS
