@@ -24,11 +24,12 @@ void DrawShadows::enqueue(const LitPixels& lit, const ShadowWords& words,
     draw_.enqueue(resources_.work_size(draw_, lit.gbuffer.view), timer, stored, words, samples);
 }
 
-// Evaluates each light of a pixel's list alone.
+// Evaluates each light of a pixel's list alone; which of those with a size it evaluates is not
+// counted.
 StageWork draw_shadows_work(const StageCounts& c) {
     return {.bytes_read = listed_surface_bytes(c) + kRadianceBytes * c.surface_pixels,
             .bytes_written = kWordBytes * c.shadow_words,
-            .instructions = shading_instructions(c),
+            .instructions = c.kernels.area_lights ? InstructionCounts{} : shading_instructions(c),
             .launches = 2};
 }
 
