@@ -24,12 +24,22 @@ Visibility::Visibility(const Gpu& gpu, const Tuning& tuning, const KernelFeature
       cast_(gpu, tuning, features, surfaces) {
     if (!features.sampled_shadows) return;
     draw_.emplace(gpu, tuning, features);
-    unshadowed_.emplace(gpu, tuning, without_shadows(features));
+    unshadowed_.emplace(gpu, tuning, without_shadows(features), SurfaceFeatures{},
+                        features.area_lights);
 }
 
 void Visibility::set_ambient(float ambient) {
     ambient_ = ambient;
     if (unshadowed_) unshadowed_->set_ambient(ambient);
+}
+
+DeviceArray<float> Visibility::draw(const LitPixels& lit, const ShadowWords& words,
+                                    const ShadowSamples& samples, StageTimer& timer) {
+    draw_->clear(lit.clusters, words, timer);
+    ShadowSamples drawn = samples;
+    drawn.whole = unshadowed_->enqueue(lit, timer, {.words = words, .samples = samples}).planes;
+    draw_->enqueue(lit, words, drawn, timer);
+    return drawn.whole;
 }
 
 SeenLights Visibility::enqueue(const ListedLights& lists, const GBuffer& gbuffer,
@@ -40,11 +50,12 @@ SeenLights Visibility::enqueue(const ListedLights& lists, const GBuffer& gbuffer
     source_.reset();
     seen_ = {};  // arrays that grow must not be held twice
     const LitPixels lit = lists.at(gbuffer);
-    const uint slots = std::max(area_lobes_ * area_slots(shadows.rays), 1u);
+    // A slot for each ray of a lobe, and one for its candidates.
+    const uint slots = std::max(area_lobes_ * (area_slots(shadows.rays) + 1), 1u);
     seen_.words = cast_.reserve(lists.lights, lists.clusters, timer, slots);
     if (draw_) {
-        seen_.samples = {unshadowed_->enqueue(lit, timer).planes, shadows.rays, shadows.seed};
-        draw_->enqueue(lit, seen_.words, seen_.samples, timer);
+        seen_.samples = {{}, shadows.rays, shadows.seed};
+        seen_.samples.whole = draw(lit, seen_.words, seen_.samples, timer);
     }
     cast_.enqueue(shadows, lit, seen_.words, timer, seen_.samples);
     source_ = source;
@@ -56,7 +67,7 @@ ShadowCounts Visibility::count(const ListedLights& lists, const GBuffer& gbuffer
                                CastShadows& counting) {
     StageTimer untimed;
     const LitPixels lit = lists.at(gbuffer);
-    if (draw_) draw_->enqueue(lit, seen.words, seen.samples, untimed);
+    if (draw_) draw(lit, seen.words, seen.samples, untimed);
     counting.enqueue(shadows, lit, seen.words, untimed, seen.samples);
     ShadowCounts out = counting.counts();
     out.words = cast_.words();

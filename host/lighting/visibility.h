@@ -40,6 +40,10 @@ class Visibility {
     void set_ambient(float ambient);
 
  private:
+    // Draws rays into `words`; the radiance if all lights are seen.
+    DeviceArray<float> draw(const LitPixels& lit, const ShadowWords& words,
+                            const ShadowSamples& samples, StageTimer& timer);
+
     // The inputs of the last enqueue().
     struct Source {
         std::uint64_t lists = 0;

@@ -6,14 +6,23 @@
 #include "kernels/device/lit_item.h"
 #include "kernels/shading/sum_lights.h"
 
+// With MARK_CANDIDATES the kernel of unshadowed light also marks, in cast_shadows' words, what
+// pixels may pick.
+#if MARK_CANDIDATES
+#define WORDS_ACCESS
+#else
+#define WORDS_ACCESS const
+#endif
+
 // Lists of a tile's clusters.
 typedef struct LightSource {
     Clusters clusters;
     global const LIGHT_INDEX* lists;
     global const DirectionalLight* directional;
     uint directional_count;
-#if SHADOWS
-    global const uint *word_offsets, *words;  // WORD_ARGS
+#if SHADOWS || MARK_CANDIDATES
+    global const uint* word_offsets;  // WORD_ARGS
+    global WORDS_ACCESS uint* words;
 #endif
 #if TINTED_SHADOWS
     global const float* origins;
@@ -57,6 +66,11 @@ static inline LightSum source_sum(LightSource from, GBuffer g, ItemPlace at, Lit
             parallel = sum_directional(p, set, from.directional, from.directional_count);
         }
 #endif
+#if MARK_CANDIDATES
+        set.candidates.bits = bits_of_cluster(from.words + from.word_offsets[at.tile], cluster,
+                                              place_of_item(at.x, at.y));
+        set.candidates.mine = mine;
+#endif
         LightSum lit = sum_lights(parallel, any_mine, p, set, from.lists + cluster->list_begin,
                                   cluster->list_count);
         if (any_mine) sum = select_sum(mine, lit, sum);
@@ -72,10 +86,14 @@ static inline LightSum source_sum(LightSource from, GBuffer g, ItemPlace at, Lit
 #define TINT_ARGS
 #endif
 
-kernel void shade(LIT_ARGS, WORD_ARGS(const), TINT_ARGS SAMPLE_ARGS, OUTPUT_ARGS) {
+kernel void shade(LIT_ARGS, WORD_ARGS(WORDS_ACCESS), TINT_ARGS SAMPLE_ARGS, OUTPUT_ARGS) {
     LIGHT_SET_OF_ARGS(set);
     LightSource from = {CLUSTERS_OF_ARGS, lists, directional_lights, directional_count};
-#if SHADOWS
+#if MARK_CANDIDATES
+    set.candidates.words = words;
+    set.candidates.directional_count = directional_count;
+#endif
+#if SHADOWS || MARK_CANDIDATES
     from.word_offsets = word_offsets;
     from.words = words;
 #endif

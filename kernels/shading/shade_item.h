@@ -49,6 +49,11 @@ static inline void shade_item(GBuffer g, LightSource from, LightSet set, ShadeOu
     set.variance = &spread;
     set.pick = make_pick(s, p, out.samples, view, item.pixels, at);
 #endif
+#if MARK_CANDIDATES
+    set.candidates.per_term = luminance_per_term(s, p);
+    set.candidates.rays = out.samples.rays;
+    set.candidates.tile = tile_key(view, out.samples.seed, at.x, at.y);
+#endif
     LightSum sum = source_sum(from, g, at, item, wanted, p, set);
 #if SAMPLED_SHADOWS
     FV3 color = without_hidden(set.pick, load_radiance(out.samples.whole, view, item.pixels), sum);

@@ -31,6 +31,7 @@
 #if SHADOWS == SHADOWS_RAYS || TINTED_SHADOWS
 #include "kernels/shadows/shadow_rays.h"
 #endif
+#include "kernels/shadows/shadow_candidates.h"
 #include "kernels/shadows/shadow_pick.h"
 
 #ifndef ALL_LIGHTS
@@ -64,6 +65,9 @@ typedef struct LightSet {
 #if SAMPLED_SHADOWS
     ShadowPick pick;
     FV* variance;  // the estimated variance of the luminance
+#endif
+#if MARK_CANDIDATES
+    Candidates candidates;
 #endif
     LightExtras extras;
 } LightSet;
@@ -199,10 +203,14 @@ static inline LightSum sampled_area(LightSet set, uint entry, uint light, LightS
 #if SHADOWS == SHADOWS_BITS
 // Whether any ray to the light is hidden; only then its sum is needed.
 static inline bool hides_any(LightSet set, uint entry) {
+    uint first = place_of_entry(set, entry), slots = area_slots(set.pick.rays);
     uint bits = 0u;
-    uint first = place_of_entry(set, entry);
-    for (uint slot = 0; slot < light_slots(set.pick.rays); ++slot) {
-        bits |= set.shadows.words[(first + slot) * set.shadows.stride] >> set.shadows.shift;
+    for (uint lobe = 0; lobe < AREA_LOBES; ++lobe) {
+        uint candidates = word_of_lanes(set.shadows, first + ray_slots(set.pick.rays) + lobe);
+        if ((candidates & lane_ballot((MASK)(-1))) == 0u) continue;
+        for (uint slot = lobe * slots; slot < (lobe + 1u) * slots; ++slot) {
+            bits |= word_of_lanes(set.shadows, first + slot);
+        }
     }
     return (bits & lane_ballot((MASK)(-1))) != 0u;
 }
@@ -267,6 +275,17 @@ static inline bool hides_any(LightSet set, uint entry) {
 #define ADD_SEEN(set, sum, seen, light, EVALUATED) (sum) = EVALUATED(sum);
 #endif
 
+// MARKED(set, entry, light, sum, ADD): ADD, which adds the light to `sum`, and its candidates.
+#if MARK_CANDIDATES
+#define MARKED(set, entry, light, sum, ADD)                                                      \
+    {                                                                                            \
+        LightSum before = (sum);                                                                 \
+        ADD mark_candidates((set).candidates, (set).extras, entry, light, before, sum, &so_far); \
+    }
+#else
+#define MARKED(set, entry, light, sum, ADD) ADD
+#endif
+
 static inline uint light_of_entry(global const LIGHT_INDEX* list, uint entry) {
 #if ALL_LIGHTS
     return entry;
@@ -292,6 +311,9 @@ static inline void stage_batch(LightSet set, global const LIGHT_INDEX* list, uin
 static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p, LightSet set,
                                   global const LIGHT_INDEX* list, uint count) {
     RunningSum sum = start_sum(total);
+#if MARK_CANDIDATES
+    FV so_far = fv(0.0f);
+#endif
 #if STAGE > 0
     for (uint first = 0; first < count; first += STAGE) {
         uint end = min(first + STAGE, count);
@@ -306,8 +328,9 @@ static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p, L
                         EVALUATE(zero_sum(), p, set.staged[i], set.extras, light))
 #else
 #define STAGED_LIGHT(sum) EVALUATE(sum, p, set.staged[i], set.extras, light)
-            ADD_SEEN(set, sum.block, sees_entry(set, first + i, light),
-                     shadow_point_light(TINT_VIEW(set), set.staged[i]), STAGED_LIGHT)
+            MARKED(set, first + i, light, sum.block,
+                   ADD_SEEN(set, sum.block, sees_entry(set, first + i, light),
+                            shadow_point_light(TINT_VIEW(set), set.staged[i]), STAGED_LIGHT))
 #endif
         }
     }
@@ -321,8 +344,10 @@ static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p, L
                     EVALUATE(zero_sum(), p, LIGHT_AT(set.lights, light), set.extras, light))
 #else
 #define LISTED_LIGHT(sum) EVALUATE(sum, p, LIGHT_AT(set.lights, light), set.extras, light)
-        ADD_SEEN(set, sum.block, sees_entry(set, i, light),
-                 shadow_point_light(TINT_VIEW(set), LIGHT_AT(set.lights, light)), LISTED_LIGHT)
+        MARKED(
+            set, i, light, sum.block,
+            ADD_SEEN(set, sum.block, sees_entry(set, i, light),
+                     shadow_point_light(TINT_VIEW(set), LIGHT_AT(set.lights, light)), LISTED_LIGHT))
 #endif
     }
 #endif

@@ -8,11 +8,10 @@
 #include "kernels/shadows/shadow_shaft.h"
 
 #if AREA_SHADOWS
-// The part of `lit` that a triangle hides from the lane's target. v: its corners, in all lanes.
-static inline MASK hidden_by(const FV3* v, uint child, ShadowScene scene, LaneLight light,
-                             FV3 point, MASK lit) {
-    MASK shaded = lit & passes_box(light, point, boxes_of(v));
-    if (!lane_any(shaded)) return shaded;
+// The part of `shaded`, of rays that pass the triangle's box, where it hides the lane's target. v:
+// its corners, in all lanes.
+static inline MASK hidden_in_box(const FV3* v, uint child, ShadowScene scene, LaneLight light,
+                                 FV3 point, MASK shaded) {
     MASK sure;
     ShadowTriangles t = set_up_shadow(v, light, scene.view.extent, &sure);
     FV3 d = sub3(point, light.at);
@@ -28,6 +27,13 @@ static inline MASK hidden_by(const FV3* v, uint child, ShadowScene scene, LaneLi
     }
 #endif
     return shaded;
+}
+
+// The part of `lit` that a triangle hides from the lane's target.
+static inline MASK hidden_by(const FV3* v, uint child, ShadowScene scene, LaneLight light,
+                             FV3 point, MASK lit) {
+    MASK shaded = lit & passes_box(light, point, boxes_of(v));
+    return lane_any(shaded) ? hidden_in_box(v, child, scene, light, point, shaded) : shaded;
 }
 
 // Tests one triangle on the rays of all rows with lit points.
@@ -48,16 +54,14 @@ static inline void shade_targets(const FV3* v, uint child, ShadowScene scene, Sh
     points->row_count = count;
 }
 
-// Whether any of the triangles may hide a target from a point.
-static inline bool shade_found_targets(ShadowScene scene, ShadowLight light, Shaft shaft,
+// Tests triangles that the walk found.
+static inline void shade_found_targets(ShadowScene scene, ShadowLight light, Shaft shaft,
                                        const uint* found, uint count, ShadowPoints* points) {
-    bool any = false;
     for (uint first = 0; first < count; first += VW) {
         FV3 v[3];
         load_casters(scene, found + first, v);
         uint bits =
             lane_ballot(may_part(shaft, light, v) & lane_mask(lane_numbers < (UV)(count - first)));
-        any |= bits != 0u;
         for (; bits != 0u; bits &= bits - 1u) {
             uint child = found[first + lowest_bit(bits)];
             global const float* t = scene.casters + (ulong)caster_of(scene, child) * 9u;
@@ -65,7 +69,6 @@ static inline bool shade_found_targets(ShadowScene scene, ShadowLight light, Sha
             shade_targets(one, child, scene, light, points);
         }
     }
-    return any;
 }
 #endif
 #endif

@@ -29,16 +29,20 @@ typedef struct AreaLight {
     uint of_light;     // light_key() of the seed, tile and light
     uint key;          // lobe_key() of that
     uint lobe;
-    uint slot;         // of the lobe
+    UV slot;           // of the lobe, of each lane's ray
     float3 low, high;  // box of its targets, shadow space [m]
 } AreaLight;
 
-// The lobe and its slot of a light's slot.
-static inline AreaLight at_slot(AreaLight light, uint slot, float rays) {
-    light.lobe = slot / area_slots(rays);
-    light.slot = slot % area_slots(rays);
-    light.key = lobe_key(light.of_light, light.lobe);
+// The light as the target of rays whose slots are of one lobe, that of lane 0. slots: of the light.
+static inline AreaLight at_slots(AreaLight light, uint lobe, UV slots, float rays) {
+    light.lobe = lobe;
+    light.slot = slots - (UV)(lobe * area_slots(rays));
+    light.key = lobe_key(light.of_light, lobe);
     return light;
+}
+
+static inline AreaLight at_slot(AreaLight light, uint slot, float rays) {
+    return at_slots(light, slot / area_slots(rays), (UV)(slot), rays);
 }
 
 // Pixels as rays to lights with a size begin there.

@@ -53,9 +53,9 @@ static inline uint key_of_tile(View view, CastLights from, uint tile) {
     return tile_key(view, from.seed, tile % tiles_x * FINE_TILE, tile / tiles_x * FINE_TILE);
 }
 
-// Slots of the j-th light of a cluster, and of all before it.
+// Slots of the rays to the j-th light of a cluster, and all slots before them.
 static inline uint slots_of(CastLights from, uint j) {
-    return j < from.directional_count ? 1u : light_slots(from.rays);
+    return j < from.directional_count ? 1u : ray_slots(from.rays);
 }
 static inline uint slots_before(CastLights from, uint j) {
     return j < from.directional_count
@@ -86,6 +86,15 @@ static inline bool any_word(global const uint* words, uint count) {
     uint bits = 0u;
     for (uint i = 0; i < count; ++i) bits |= words[i];
     return bits != 0u;
+}
+
+// Whether any pixel picks a light whose first slot's words are `words`, `count` for each slot.
+static inline bool is_picked_by_any(CastLights from, uint j, global const uint* words, uint count) {
+    bool any = false;
+    for (uint slot = 0; slot < slots_of(from, j); slot = next_lobe(from, slot)) {
+        any |= any_word(words + slot * count, count);
+    }
+    return any;
 }
 
 kernel void cast_shadows_reserve(uint tile_count, uint directional_count,

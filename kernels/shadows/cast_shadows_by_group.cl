@@ -5,80 +5,33 @@
 // change the result.
 #define ORDERED_PIXELS 1
 #define SHADOW_POINTS (FINE_TILE_PIXELS / GROUP)
-#include "kernels/shadows/cast_shadows.h"
-#include "kernels/shadows/shadow_cast.h"
-
-#ifndef SPLIT
-#define SPLIT 4
-#endif
-#define NODES_AT_ONCE (GROUP / SHADOW_WIDTH)
-// Most triangles that wait for their test.
-#define GROUP_FOUND (2 * GROUP)
-// float4 of a triangle: its forms, the edges' units with its child's number, its box.
-#define FORM_FLOAT4S 5
-
-// The memory that the items share.
-typedef struct GroupWalk {
-    uint stack[SHADOW_STACK];
-    uint found[GROUP_FOUND];
-    uint nodes[NODES_AT_ONCE];          // off the stack
-    float4 forms[GROUP][FORM_FLOAT4S];  // of the triangles that are tested
-    uint top, count;                    // of stack and found
-    uint tested;                        // triangles
-    uint lit;                           // 1 while some point is
-    uchar flags[FINE_TILE_PIXELS];      // of places: 1 where lit
-#if COUNT_SHADOWS
-    ShadowCounts counts[GROUP];  // of the items: nodes, triangles and shafts by each for all
-#endif
-    int low[3], high[3];  // of the cluster's points, as ordered_bits
-} GroupWalk;
-
-// Floats' order, negative ones included, as integers'; its own inverse on bits.
-static inline int ordered_bits(int bits) { return bits ^ (bits >> 31 & 0x7fffffff); }
-
-static inline uint this_item(void) { return get_local_id(0); }
+#include "kernels/shadows/area_group.h"
+#include "kernels/shadows/shadow_group.h"
 
 // Place in the tile's order of the item's k-th point of a cluster whose first pixel is `first`.
 static inline uint place_of_point(uint first, uint k) { return first + k * GROUP + this_item(); }
 
 // The item's points of a cluster.
-static inline void load_points_of_item(GBuffer g, global const float* origins, uint tile,
+static inline void load_points_of_item(View view, global const float* origins, uint tile,
                                        global const uchar* order, uint first, uint end,
                                        ShadowPoints* points) {
-    View view = g.view;
     points->row_count = (end - first + GROUP - 1u) / GROUP;
 #pragma unroll
     for (uint k = 0; k < SHADOW_POINTS; ++k) {
         uint place = min(place_of_point(first, k), end - 1u);
         Pixels pixels = pixels_of_tile(view, tile, place, order);
         load_origins(points, k, origins, view.stride * view.height, pixels);
-        load_area_pixels(points, k, g, pixels);
     }
 }
 
 // The box of the cluster's points.
 static inline void find_box(const ShadowPoints* points, local GroupWalk* walk) {
     barrier(CLK_LOCAL_MEM_FENCE);  // the last cluster's is used up
-    if (this_item() < 3u) {
-        walk->low[this_item()] = ordered_bits(as_int(SHADOW_NOWHERE));
-        walk->high[this_item()] = ordered_bits(as_int(-SHADOW_NOWHERE));
-    }
+    empty_box(&walk->box);
     barrier(CLK_LOCAL_MEM_FENCE);  // empty before it grows
 #pragma unroll
-    for (uint k = 0; k < SHADOW_POINTS; ++k) {
-        const float at[3] = {points->x[k], points->y[k], points->z[k]};
-#pragma unroll
-        for (uint axis = 0; axis < 3; ++axis) {
-            atomic_min(&walk->low[axis], ordered_bits(as_int(at[axis])));
-            atomic_max(&walk->high[axis], ordered_bits(as_int(at[axis])));
-        }
-    }
+    for (uint k = 0; k < SHADOW_POINTS; ++k) grow_box(&walk->box, load_points(points, k));
     barrier(CLK_LOCAL_MEM_FENCE);  // complete
-}
-
-static inline float3 box_end(local const int* end) {
-    return (float3)(as_float(ordered_bits(end[0])), as_float(ordered_bits(end[1])),
-                    as_float(ordered_bits(end[2])));
 }
 
 static inline float4 float4_of(ShadowForm form) {
@@ -92,8 +45,7 @@ static inline void set_up_found(ShadowScene scene, ShadowLight light, Shaft shaf
     load_casters(scene, &child, v);
 #if AREA_SHADOWS
     if (light.is_area) {
-        if (!lane_any(may_part(shaft, light, v))) return;
-        walk->forms[atomic_inc(&walk->tested)][0].x = as_float(child);
+        set_up_corners(v, light, shaft, child, walk);
         return;
     }
 #endif
@@ -155,32 +107,6 @@ static inline bool shade_points(ShadowScene scene, ShadowLight light, local cons
     return lane_any(any);
 }
 
-#if AREA_SHADOWS
-// The same for a light with a size.
-static inline bool shade_point_targets(ShadowScene scene, ShadowLight light,
-                                       local const GroupWalk* walk, ShadowPoints* points) {
-    LaneLight at = shared_light(light);
-    MASK any = 1;
-    for (uint j = 0; lane_any(any) && j < walk->tested; ++j) {
-        uint child = as_uint(walk->forms[j][0].x);
-        FV3 v[3];
-        load_casters(scene, &child, v);
-        any = 0;
-#pragma unroll
-        for (uint k = 0; k < SHADOW_POINTS; ++k) {
-            if (k >= points->row_count) continue;  // the same for all items
-            MASK lit = lit_of(points, k);
-            ADD_COUNT(points, points, lane_count(lit));
-            at.at = load_edge_points(points, k);
-            lit &= ~hidden_by(v, child, scene, at, load_points(points, k), lit);
-            points->lit[k] = as_float(lit);
-            any |= lit;
-        }
-    }
-    return lane_any(any);
-}
-#endif
-
 // Tests what was found, GROUP triangles at a time.
 static inline void test_found(ShadowScene scene, ShadowLight light, Shaft shaft, uint count,
                               local GroupWalk* walk, ShadowPoints* points) {
@@ -189,48 +115,22 @@ static inline void test_found(ShadowScene scene, ShadowLight light, Shaft shaft,
         if (this_item() == 0u) {
             walk->tested = 0u;
             walk->lit = 0u;
+#if AREA_SHADOWS
+            walk->rays.pair_count[0] = 0u;
+#endif
         }
         barrier(CLK_LOCAL_MEM_FENCE);  // 0 before any adds to it
         uint i = first + this_item();
         if (i < count) set_up_found(scene, light, shaft, walk->found[i], walk);
         barrier(CLK_LOCAL_MEM_FENCE);  // all are set up
 #if AREA_SHADOWS
-        bool lit = light.is_area ? shade_point_targets(scene, light, walk, points)
+        bool lit = light.is_area ? shade_rays(scene, light, walk, points)
                                  : shade_points(scene, light, walk, points);
 #else
         bool lit = shade_points(scene, light, walk, points);
 #endif
         if (lit) walk->lit = 1u;
         barrier(CLK_LOCAL_MEM_FENCE);  // all have tested
-    }
-}
-
-// How many of the `top` nodes on the stack are taken at once: so many that afterwards a walk that
-// takes one at a time still has room, which needs SHADOW_WIDTH - 1 entries a level.
-static inline uint nodes_to_take(ShadowView view, uint top) {
-    uint levels = view.levels != 0u ? view.levels : SHADOW_LEVELS;
-    uint room = SHADOW_STACK - 1u - levels * (SHADOW_WIDTH - 1u);
-    uint take = min(top, (uint)NODES_AT_ONCE);
-    return top + take * (SHADOW_WIDTH - 1u) <= room ? take : 1u;
-}
-
-// Takes `take` nodes off the stack, and puts those of their children that the shaft meets on the
-// stack or into the found triangles.
-static inline void walk_nodes(ShadowScene scene, Shaft shaft, uint top, uint take,
-                              local GroupWalk* walk) {
-    if (this_item() == 0u) walk->top = top - take;
-    if (this_item() < take) walk->nodes[this_item()] = walk->stack[top - 1u - this_item()];
-    barrier(CLK_LOCAL_MEM_FENCE);  // popped before any is pushed
-    uint place = this_item() % SHADOW_WIDTH;
-    uint mine = this_item() / SHADOW_WIDTH;
-    global const ShadowNode* node = scene.nodes + (mine < take ? walk->nodes[mine] : 0u);
-    if (mine < take && lane_any(meets_children(shaft, node, place))) {
-        uint child = node->child[place];
-        if ((child & SHADOW_LEAF) != 0u) {
-            walk->found[atomic_inc(&walk->count)] = child;
-        } else {
-            walk->stack[atomic_inc(&walk->top)] = child;
-        }
     }
 }
 
@@ -295,44 +195,96 @@ static inline void store_words(uint first, uint end, local GroupWalk* walk, glob
 }
 
 // One light's bits of one cluster, whose box is found.
-static inline void cast_light(ShadowScene scene, ShadowLight light, uint first, uint end,
-                              local GroupWalk* walk, ShadowPoints* points, global uint* words) {
+static inline void cast_light(ClusterCast cast, uint j, local GroupWalk* walk,
+                              ShadowPoints* points) {
+    ShadowLight light = light_of_cast(cast, j);
+#if AREA_SHADOWS
+    if (light.is_area) return;
+#endif
+    global uint* words = words_of_light(cast, j);
     bool any = false;
     ulong tests_before = counted_tests(points);
     uint rays = 0, seen = 0;
 #pragma unroll
     for (uint k = 0; k < SHADOW_POINTS; ++k) {
         if (k >= points->row_count) continue;
-        uint place = place_of_point(first, k);
-        MASK mine = lane_mask(place < end);
+        uint place = place_of_point(cast.first, k);
+        MASK mine = lane_mask(place < cast.end);
 #if PICKED_ONLY
-        mine &= lane_mask(place < end && (words[place / 32u - first / 32u] >> place % 32u & 1u));
+        mine &= lane_mask(place < cast.end &&
+                          (words[place / 32u - cast.first / 32u] >> place % 32u & 1u));
 #endif
-        MASK lit = face_light(scene.view, points, k, light, mine);
+        MASK lit = face_light(cast.scene.view, points, k, light, mine);
         any |= lane_any(lit);
         rays += lane_count(lit);
     }
     barrier(CLK_LOCAL_MEM_FENCE);  // the last light is done
-    if (this_item() == 0u) {
-        walk->stack[0] = 0u;
-        walk->top = 1u;
-        walk->count = 0u;
-        walk->lit = 0u;
-    }
+    begin_walk(walk);
     barrier(CLK_LOCAL_MEM_FENCE);  // 0 before any item's points are lit
     if (any) walk->lit = 1u;
-    cast_shadows_of_group(scene, light, make_shaft(light, box_end(walk->low), box_end(walk->high)),
-                          walk, points);
+    Shaft shaft = make_shaft(light, box_end(walk->box.low), box_end(walk->box.high));
+    cast_shadows_of_group(cast.scene, light, shaft, walk, points);
 #pragma unroll
     for (uint k = 0; k < SHADOW_POINTS; ++k) {
-        uint place = place_of_point(first, k);
-        if (place < end) walk->flags[place] = lane_any(lit_of(points, k));
-        if (place < end) seen += lane_count(lit_of(points, k));
+        uint place = place_of_point(cast.first, k);
+        if (place < cast.end) walk->flags[place] = lane_any(lit_of(points, k));
+        if (place < cast.end) seen += lane_count(lit_of(points, k));
     }
     count_rays(points, tests_before, rays, seen);
     // All flags are set, and all have read the words.
     barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
-    store_words(first, end, walk, words);
+    store_words(cast.first, cast.end, walk, words);
+}
+
+#if AREA_SHADOWS
+// One light's bits, if it has a size; whether it has.
+static inline bool cast_area_light(ClusterCast cast, uint j, AreaPixels pixels,
+                                   local GroupWalk* walk, ShadowPoints* counted) {
+    ShadowLight light = light_of_cast(cast, j);
+    if (!light.is_area) return false;
+    global uint* words = words_of_light(cast, j);
+    LeftBits left = {this_item(), 0u};
+    bool goes_on = true;
+    while (goes_on) {
+        take_rays(words, slots_of(cast.from, j) * cast.count, &left, walk);
+        ulong tests_before = counted_tests(counted);
+        uint rays = make_rays(cast, pixels, light, walk);
+        light.area.low = box_end(walk->rays.targets_box.low);
+        light.area.high = box_end(walk->rays.targets_box.high);
+        Shaft shaft = make_shaft(light, box_end(walk->box.low), box_end(walk->box.high));
+        cast_shadows_of_group(cast.scene, light, shaft, walk, counted);
+        count_rays(counted, tests_before, rays, put_seen(words, &walk->rays));
+        goes_on = walk->rays.any_left != 0u;
+    }
+    return true;
+}
+
+// The bits of all lights with a size of one cluster; whether there are other lights.
+static inline bool cast_area_lights(ClusterCast cast, AreaPixels pixels, local GroupWalk* walk,
+                                    ShadowPoints* counted) {
+    bool others = false;
+    uint count = count_of_cluster(cast.from, cast.cluster);
+    for (uint j = get_group_id(0) % SPLIT; j < count; j += 32u * SPLIT) {
+        for (uint bits = find_picked(cast, j, walk); bits != 0u; bits &= bits - 1u) {
+            uint light = j + lowest_bit(bits) * SPLIT;
+            others |= !cast_area_light(cast, light, pixels, walk, counted);
+        }
+    }
+    return others;
+}
+#endif
+
+// The bits of the lights without a size of one cluster.
+static inline void cast_lights(ClusterCast cast, local GroupWalk* walk, ShadowPoints* points) {
+    find_box(points, walk);
+    uint count = count_of_cluster(cast.from, cast.cluster);
+    for (uint j = get_group_id(0) % SPLIT; j < count; j += 32u * SPLIT) {
+        uint left = (count - j + SPLIT - 1u) / SPLIT;
+        uint bits = find_picked(cast, j, walk) & (0xffffffffu >> (32u - min(left, 32u)));
+        for (; bits != 0u; bits &= bits - 1u) {
+            cast_light(cast, j + lowest_bit(bits) * SPLIT, walk, points);
+        }
+    }
 }
 
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cast_shadows(
@@ -342,35 +294,23 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cast_shadows(
     local GroupWalk walk;
     uint tile = get_group_id(0) / SPLIT;
     if (word_offsets[tile] == word_offsets[tile + 1]) return;
-    ShadowScene scene = SHADOW_SCENE_OF_ARGS;
     Clusters active = CLUSTERS_OF_ARGS;
-    CastLights from = CAST_LIGHTS_OF_ARGS;
-    uint key = key_of_tile(view, from, tile);
+    ClusterCast cast = {SHADOW_SCENE_OF_ARGS, CAST_LIGHTS_OF_ARGS};
+    cast.key = key_of_tile(view, cast.from, tile);
     ShadowPoints points;
     reset_counts(&points);
     FOR_EACH_CLUSTER(i, active, tile) {
-        uint first = clusters[i].first_pixel;
-        uint last = first + clusters[i].pixel_count;
-        load_points_of_item(GBUFFER_OF_ARGS, origins, tile, order, first, last, &points);
-        find_box(&points, &walk);
-        global uint* out = words + word_offsets[tile] + clusters[i].first_word;
-        uint count = shadow_words(first, last);
-        for (uint j = get_group_id(0) % SPLIT; j < count_of_cluster(from, clusters + i);
-             j += SPLIT) {
-            ShadowLight light = light_of_cluster(from, shadow, clusters + i, j, key);
-            global uint* slot_words = out + slots_before(from, j) * count;
-            for (uint slot = 0; slot < slots_of(from, j);) {
-#if PICKED_ONLY
-                if (!any_word(slot_words + slot * count, count)) {  // the same for all items
-                    slot = next_lobe(from, slot);
-                    continue;
-                }
+        cast.cluster = clusters + i;
+        cast.first = clusters[i].first_pixel;
+        cast.end = cast.first + clusters[i].pixel_count;
+        cast.count = shadow_words(cast.first, cast.end);
+        cast.words = words + word_offsets[tile] + clusters[i].first_word;
+#if AREA_SHADOWS
+        AreaPixels pixels = {GBUFFER_OF_ARGS, origins, order, tile};
+        if (!cast_area_lights(cast, pixels, &walk, &points)) continue;
 #endif
-                cast_light(scene, light_at_slot(from, light, slot), first, last, &walk, &points,
-                           slot_words + slot * count);
-                ++slot;
-            }
-        }
+        load_points_of_item(view, origins, tile, order, cast.first, cast.end, &points);
+        cast_lights(cast, &walk, &points);
     }
 #if COUNT_SHADOWS
     store_counts(&points, &walk, counts + get_group_id(0));

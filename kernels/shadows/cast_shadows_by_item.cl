@@ -6,6 +6,7 @@
 //                         light. For CPUs.
 #define ORDERED_PIXELS 1
 #define SHADOW_POINTS FINE_TILE_PIXELS
+#include "kernels/shadows/area_rays.h"
 #include "kernels/shadows/cast_shadows.h"
 #include "kernels/shadows/shadow_cast.h"
 
@@ -61,76 +62,30 @@ static inline uint put_lit(ClusterBits bits, uint first_row, uint end_row,
     return seen;
 }
 
-// One light's bits, of one slot. Whether the rays' shaft met any triangle's box.
-static inline bool cast_light(ShadowScene scene, ShadowLight light, ClusterBits bits,
+// One light's bits.
+static inline void cast_light(ShadowScene scene, ShadowLight light, ClusterBits bits,
                               ShadowPoints* points) {
     uint first_row = bits.first / VW;
     uint end_row = (bits.end + VW - 1) / VW;
     ulong tests_before = counted_tests(points);
     uint rays = 0;
     LaneBox box = no_box();
-    bool is_first = false;
-#if AREA_SHADOWS
-    // The first slot's shaft is that of all pixels to the whole light.
-    LaneBox ends = no_box();
-    is_first = light.is_area && light.area.slot == 0u;
-#endif
     MASK any = (MASK)(0);
     for (uint row = first_row; row < end_row; ++row) {
-        MASK wanted = wanted_lanes(bits, row);
-        MASK lit = face_light(scene.view, points, row, light, wanted);
-        box = grown_box(box, is_first ? wanted : lit, load_points(points, row));
-#if AREA_SHADOWS
-        if (light.is_area) ends = grown_box(ends, lit, load_edge_points(points, row));
-#endif
+        MASK lit = face_light(scene.view, points, row, light, wanted_lanes(bits, row));
+        box = grown_box(box, lit, load_points(points, row));
         any |= lit;
         rays += lane_count(lit);
     }
-#if AREA_SHADOWS
-    if (light.is_area && !is_first) {
-        light.area.low = box_low(ends);
-        light.area.high = box_high(ends);
-    }
-#endif
-    bool met = false;
     if (lane_any(any)) {
-        met =
-            cast_shadows_of(scene, light, box_low(box), box_high(box), first_row, end_row, points);
+        cast_shadows_of(scene, light, box_low(box), box_high(box), first_row, end_row, points);
     }
 #if !PICKED_ONLY
     uint count = shadow_words(bits.first, bits.end);
     for (uint word = 0; word < count; ++word) bits.words[word] = 0u;
 #endif
-    if (!lane_any(any)) return true;
+    if (!lane_any(any)) return;
     count_rays(points, tests_before, rays, put_lit(bits, first_row, end_row, points));
-    return met;
-}
-
-// One light's bits, of all slots.
-static inline void cast_slots(ShadowScene scene, CastLights from, ShadowLight light, uint slots,
-                              ClusterBits bits, ShadowPoints* points) {
-#if !PICKED_ONLY
-    cast_light(scene, light, bits, points);
-#else
-    global uint* words = bits.words;
-    uint count = shadow_words(bits.first, bits.end);
-    bool met = true;
-    for (uint slot = 0; slot < slots;) {
-        bits.words = words + slot * count;
-        bool begins = slot == 0u || next_lobe(from, slot - 1u) == slot;
-        if (begins) met = true;
-        if (!any_word(bits.words, count)) {
-            slot = next_lobe(from, slot);
-            continue;
-        }
-        if (met) {
-            met = cast_light(scene, light_at_slot(from, light, slot), bits, points) || !begins;
-        } else {  // the shaft from these pixels to the whole light is empty
-            for (uint word = 0; word < count; ++word) bits.words[word] = 0u;
-        }
-        ++slot;
-    }
-#endif
 }
 
 kernel __attribute__((reqd_work_group_size(1, 1, 1))) void cast_shadows(
@@ -144,18 +99,39 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void cast_shadows(
     ShadowPoints points;
     reset_counts(&points);
     load_tile(GBUFFER_OF_ARGS, origins, tile, order, &points);
+#if AREA_SHADOWS
+    AreaRays area_rays;
+    reset_counts(&area_rays.ends);
+#endif
     CastLights from = CAST_LIGHTS_OF_ARGS;
     uint key = key_of_tile(view, from, tile);
     ClusterBits bits = {0u, 0u, words + word_offsets[tile]};
     FOR_EACH_CLUSTER(i, active, tile) {
         bits.end = bits.first + clusters[i].pixel_count;
+        uint count = shadow_words(bits.first, bits.end);
+        global uint* cluster_words = bits.words;
         for (uint j = 0; j < count_of_cluster(from, clusters + i); ++j) {
+            bits.words = cluster_words + slots_before(from, j) * count;
+#if PICKED_ONLY
+            if (!is_picked_by_any(from, j, bits.words, count)) continue;
+#endif
             ShadowLight light = light_of_cluster(from, shadow, clusters + i, j, key);
-            cast_slots(scene, from, light, slots_of(from, j), bits, &points);
-            bits.words += slots_of(from, j) * shadow_words(bits.first, bits.end);
+#if AREA_SHADOWS
+            if (light.is_area) {
+                SlotWords to = {bits.words, count, bits.first / 32u * 32u};
+                cast_area_light(scene, light, from, to, &points, &area_rays);
+                continue;
+            }
+#endif
+            cast_light(scene, light, bits, &points);
         }
+        bits.words =
+            cluster_words + slots_before(from, count_of_cluster(from, clusters + i)) * count;
         bits.first = bits.end;
     }
+#if AREA_SHADOWS
+    add_counts(&points, &area_rays.ends);
+#endif
 #if COUNT_SHADOWS
     counts[tile] = points.counts;
 #endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Decides for each pixel which lights of its list a shadow ray goes to, as bits in
-// cast_shadows' words: see kernels/shadows/shadow_pick.h.
+// cast_shadows' words: see kernels/shadows/shadow_pick.h. Of lights with a size only those that
+// shade's MARK_CANDIDATES has marked there.
 //   draw_shadows_clear  words to 0
 //   draw_shadows        one work-item picks for VW pixels, neighbours in the order of their tile's
 //                       clusters
@@ -16,12 +17,17 @@ kernel void draw_shadows_clear(WORD_ARGS(), uint tile_count) {
     }
 }
 
-static inline void put_bits(ShadowBits bits, uint i, MASK picked, global uint* words) {
-    if (!lane_any(picked)) return;
-    atomic_or(words + (bits.words - words) + i * bits.stride, lane_ballot(picked) << bits.shift);
+#if HAS_AREA_LIGHTS
+// The lanes that may pick each lobe of a light whose first slot is `first`; whether any may.
+static inline bool find_candidates(ShadowBits bits, uint first, MASK mine, float rays, MASK* may) {
+    MASK any = (MASK)(0);
+    for (uint lobe = 0; lobe < AREA_LOBES; ++lobe) {
+        may[lobe] = mine & sees_light(bits, first + ray_slots(rays) + lobe);
+        any |= may[lobe];
+    }
+    return lane_any(any);
 }
 
-#if HAS_AREA_LIGHTS
 // The bits of a lobe's slots, from `first` on.
 static inline void put_slots(ShadowBits bits, uint first, MASK mine, FV pairs, global uint* words) {
     for (uint slot = 0; lane_any(mine & casts_slot(pairs, slot)); ++slot) {
@@ -48,19 +54,25 @@ kernel void draw_shadows(LIT_ARGS, WORD_ARGS(), SAMPLE_ARGS) {
 #endif
         for (uint j = 0; j < clusters[i].list_count; ++j) {
             uint light = lists[clusters[i].list_begin + j];
-            LightSum one = EVALUATE(zero_sum(), p, LIGHT_AT(lights, light), extras, light);
-            FV alone = light_alone(pick, one);
             uint first = directional_count + j * light_slots(rays);
 #if HAS_AREA_LIGHTS
-            if (has_size(shape_of_light(extras, light))) {
+            MASK may[AREA_LOBES];
+            bool has_candidates = find_candidates(bits, first, mine, rays, may);
+            bool is_area = has_size(shape_of_light(extras, light));
+            if (is_area && !has_candidates) continue;
+#endif
+            LightSum one = EVALUATE(zero_sum(), p, LIGHT_AT(lights, light), extras, light);
+#if HAS_AREA_LIGHTS
+            if (is_area) {
                 for (uint lobe = 0; lobe < AREA_LOBES; ++lobe, first += area_slots(rays)) {
                     FV part = light_alone(pick, lobe_part(one, lobe));
-                    put_slots(bits, first, mine, picked_pairs(pick, part, light, lobe), words);
+                    FV pairs = picked_pairs(pick, part, light, lobe);
+                    put_slots(bits, first, may[lobe], pairs, words);
                 }
                 continue;
             }
 #endif
-            put_bits(bits, first, mine & picks_light(pick, alone, light), words);
+            put_bits(bits, first, mine & picks_light(pick, light_alone(pick, one), light), words);
         }
     }
 }

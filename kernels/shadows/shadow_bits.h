@@ -14,10 +14,13 @@
 #else
 #define AREA_LOBES 1u
 #endif
-// Slots of a light of a list, for its rays; one unless sampled shadows have area lights.
+// Slots of a light of a list: for its rays; then, in scenes with area lights, one for each lobe
+// whose bits say which pixels may pick it (shadow_candidates.h).
 #if HAS_AREA_LIGHTS
-#define light_slots(rays) (AREA_LOBES * area_slots(rays))
+#define ray_slots(rays) (AREA_LOBES * area_slots(rays))
+#define light_slots(rays) (ray_slots(rays) + AREA_LOBES)
 #else
+#define ray_slots(rays) 1u
 #define light_slots(rays) 1u
 #endif
 
@@ -42,9 +45,20 @@ static inline ShadowBits bits_of_cluster(global const uint* tile_words,
     return out;
 }
 
+// Sets bits.
+static inline void put_bits(ShadowBits bits, uint i, MASK lanes, global uint* words) {
+    if (!lane_any(lanes)) return;
+    atomic_or(words + (bits.words - words) + i * bits.stride, lane_ballot(lanes) << bits.shift);
+}
+
+// A word from the bit of lane 0 on.
+static inline uint word_of_lanes(ShadowBits bits, uint i) {
+    return bits.words[i * bits.stride] >> bits.shift;
+}
+
 // The lanes that see the cluster's i-th light, directional ones first.
 static inline MASK sees_light(ShadowBits bits, uint i) {
-    UV mine = (UV)(bits.words[i * bits.stride] >> bits.shift) >> lane_numbers & 1u;
+    UV mine = (UV)(word_of_lanes(bits, i)) >> lane_numbers & 1u;
     return lane_mask(mine != (UV)(0u));
 }
 #endif

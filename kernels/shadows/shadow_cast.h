@@ -127,15 +127,15 @@ static inline void find_lit_rows(ShadowPoints* points, uint first, uint end) {
     points->row_count = count;
 }
 
-// Tests the triangles that the walk found; for lights with a size: whether any may hide a point.
-// `found` has room for whole vectors.
-static inline bool shade_found(ShadowScene scene, ShadowLight light, Shaft shaft, uint* found,
+// Tests the triangles that the walk found. `found` has room for whole vectors.
+static inline void shade_found(ShadowScene scene, ShadowLight light, Shaft shaft, uint* found,
                                uint count, ShadowPoints* points) {
     ADD_COUNT(points, triangles, count);
     for (uint i = count; i < (count + VW - 1) / VW * VW; ++i) found[i] = found[count - 1];
 #if AREA_SHADOWS
     if (light.is_area) {
-        return shade_found_targets(scene, light, shaft, found, count, points);
+        shade_found_targets(scene, light, shaft, found, count, points);
+        return;
     }
 #endif
     for (uint first = 0; first < count; first += VW) {
@@ -151,7 +151,6 @@ static inline bool shade_found(ShadowScene scene, ShadowLight light, Shaft shaft
         store_forms(&t, &triangles.forms);
         shade_rows(points, &triangles, scene, light);
     }
-    return true;
 }
 
 // Prefetches a node.
@@ -179,9 +178,8 @@ static inline ulong counted_tests(const ShadowPoints* points) {
 }
 
 // Clears the lit flag of each point that a triangle hides from the light, in the rows first .. end
-// - 1, which face_light() began. low, high: box of the lit points. Whether any
-// triangle may hide a point of the shaft.
-static inline bool cast_shadows_of(ShadowScene scene, ShadowLight light, float3 low, float3 high,
+// - 1, which face_light() began. low, high: box of the lit points.
+static inline void cast_shadows_of(ShadowScene scene, ShadowLight light, float3 low, float3 high,
                                    uint first, uint end, ShadowPoints* points) {
     ADD_COUNT(points, shafts, 1);
     Shaft shaft = make_shaft(light, low, high);
@@ -189,7 +187,6 @@ static inline bool cast_shadows_of(ShadowScene scene, ShadowLight light, float3 
     uint found[SHADOW_BATCH + SHADOW_WIDTH];
     uint top = 1;
     uint count = 0;
-    bool met = false;
     stack[0] = 0;
     find_lit_rows(points, first, end);
     while (top > 0u && points->row_count > 0u) {
@@ -208,10 +205,9 @@ static inline bool cast_shadows_of(ShadowScene scene, ShadowLight light, float3 
             }
         }
         if (count > SHADOW_BATCH - SHADOW_WIDTH || (top == 0u && count > 0u)) {
-            met |= shade_found(scene, light, shaft, found, count, points);
+            shade_found(scene, light, shaft, found, count, points);
             count = 0;
         }
     }
-    return met;
 }
 #endif

@@ -56,6 +56,19 @@ static inline void reset_counts(ShadowPoints* points) {
 #endif
 }
 
+// Adds the counts of other points.
+static inline void add_counts(ShadowPoints* to, const ShadowPoints* from) {
+#if COUNT_SHADOWS
+    to->counts.shafts += from->counts.shafts;
+    to->counts.rays += from->counts.rays;
+    to->counts.met_rays += from->counts.met_rays;
+    to->counts.seen += from->counts.seen;
+    to->counts.nodes += from->counts.nodes;
+    to->counts.triangles += from->counts.triangles;
+    to->counts.points += from->counts.points;
+#endif
+}
+
 static inline uint lane_count(MASK mask) { return popcount(lane_ballot(mask)); }
 
 static inline void load_origins(ShadowPoints* to, uint row, global const float* origins, uint plane,
@@ -68,6 +81,20 @@ static inline void load_origins(ShadowPoints* to, uint row, global const float* 
     lane_store(n.x, to->nx + at);
     lane_store(n.y, to->ny + at);
     lane_store(n.z, to->nz + at);
+}
+
+// Point `i` as that of another place.
+static inline void copy_point(ShadowPoints* to, uint at, const ShadowPoints* from, uint i) {
+    to->x[at] = from->x[i], to->y[at] = from->y[i], to->z[at] = from->z[i];
+    to->nx[at] = from->nx[i], to->ny[at] = from->ny[i], to->nz[at] = from->nz[i];
+#if AREA_SHADOWS
+    to->px[at] = from->px[i], to->py[at] = from->py[i], to->pz[at] = from->pz[i];
+    to->qx[at] = from->qx[i], to->qy[at] = from->qy[i], to->qz[at] = from->qz[i];
+    to->key[at] = from->key[i];
+#if AREA_LOBES > 1u
+    for (uint k = 0; k < 6u; ++k) to->gloss[k][at] = from->gloss[k][i];
+#endif
+#endif
 }
 
 static inline FV3 load_points(const ShadowPoints* points, uint row) {

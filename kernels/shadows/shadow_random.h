@@ -44,13 +44,13 @@ typedef struct LaneFractions {
 // and 1, 3, ... are two independent sets, and so are attempts. In each the numbers are a lattice
 // that a random shift moves: its points spread evenly, and each alone is uniform (Roberts 2018,
 // "The Unreasonable Effectiveness of Quasirandom Sequences": powers of the root of x^4 = x + 1).
-static inline LaneFractions ray_fractions(uint key, UV pixel, uint slot, uint attempt) {
-    uint set = hash_of(hash_of(key + 1u + (slot & 1u)) + attempt);
-    uint i = slot >> 1;
+static inline LaneFractions ray_fractions(uint key, UV pixel, UV slot, uint attempt) {
+    UV set = lane_hash(lane_hash((slot & 1u) + (key + 1u)) + attempt);
+    UV i = slot >> 1;
     LaneFractions out;
-    out.u = pixel + (hash_of(set + 1u) + i * 0xd1b54a33u);
-    out.v = lane_hash(pixel + 1u) + (hash_of(set + 2u) + i * 0xabc98389u);
-    out.w = lane_hash(pixel + 2u) + (hash_of(set + 3u) + i * 0x8cb92ba7u);
+    out.u = pixel + (lane_hash(set + 1u) + i * 0xd1b54a33u);
+    out.v = lane_hash(pixel + 1u) + (lane_hash(set + 2u) + i * 0xabc98389u);
+    out.w = lane_hash(pixel + 2u) + (lane_hash(set + 3u) + i * 0x8cb92ba7u);
     return out;
 }
 #endif

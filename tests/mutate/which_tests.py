@@ -46,6 +46,7 @@ STEPS = (
     (r"shading/", LIGHTING + PICTURES + SHADOWS),
     (r"lights/", LIGHTS + PROFILES + TAILS),
     (r"lists/", LISTS + PICTURES),
+    (r"shadows/(area_|shadow_(candidates|pick|random))", [("opencl_tests", "AreaShadows.*:EveryKernel.AreaShadows*")] + SHADOWS + AREA),
     (r"shadows/", SHADOWS),
     (r"tails/(cut_light_tree|tree_)", TREE + TAILS),
     (r"tails/", TAILS + TREE),

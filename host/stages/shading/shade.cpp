@@ -41,17 +41,19 @@ BuildOptions shadow_options(BuildOptions options, int way, const KernelFeatures&
 }  // namespace
 
 Shade::Shade(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
-             const SurfaceFeatures& surfaces)
+             const SurfaceFeatures& surfaces, bool candidates)
     : gpu_(gpu),
       tuning_(tuning),
       features_(features),
       surfaces_(surfaces),
+      candidates_(candidates),
       resources_(gpu, tuning, features, kShadeStage),
       variance_(gpu, kShadeStage) {}
 
 void Shade::build(std::optional<int> tone_curve) {
     if (kernels_.contains(tone_curve)) return;
     BuildOptions options = resources_.options();
+    if (candidates_) options.define("MARK_CANDIDATES", 1);
     if (features_.shadows) {
         options = shadow_options(options, kShadowBits, features_, surfaces_, tuning_);
     }

@@ -12,7 +12,7 @@ namespace kilolux {
 StageWork shade_work(const StageCounts& counts);
 inline constexpr StageInfo kShadeStage = {"shade", StageGroup::shading, shade_work};
 
-/// With KernelFeatures::shadows, which lights are seen.
+/// With KernelFeatures::shadows, which lights are seen; or where candidates are marked.
 struct SeenInput {
     ShadowWords words{};      // CastShadows' result for the lists
     ShadowSamples samples{};  // of sampled shadows
@@ -22,9 +22,11 @@ struct SeenInput {
 /// Radiance of every pixel from the lists of its active cluster, or its codes of a display.
 class Shade {
  public:
-    /// `surfaces`: with tinted_shadows, what of the casters' materials is read.
+    /// `surfaces`: with tinted_shadows, what of the casters' materials is read. `candidates`:
+    /// without shadows, enqueue() marks in words of 0 which lobes of lights with a size the pixels
+    /// may pick by the samples' rays and seed.
     Shade(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
-          const SurfaceFeatures& surfaces = {});
+          const SurfaceFeatures& surfaces = {}, bool candidates = false);
 
     /// Builds the kernel that stores codes by TONE_CURVE_*, or, without one, the kernel that stores
     /// radiance. Otherwise the first enqueue() that needs it builds it. Throws Error.
@@ -47,6 +49,7 @@ class Shade {
     Tuning tuning_;
     KernelFeatures features_;
     SurfaceFeatures surfaces_;
+    bool candidates_;
     ShadingResources resources_;
     std::map<std::optional<int>, Kernel> kernels_;  // by tone curve; none: for radiance
     GrowingArray<float> variance_;

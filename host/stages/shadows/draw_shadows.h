@@ -15,6 +15,9 @@ class DrawShadows {
  public:
     DrawShadows(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
+    /// Sets the words to 0, before Shade marks candidates there. Enqueues only.
+    void clear(const ActiveClusters& clusters, const ShadowWords& words, StageTimer& timer);
+
     /// Enqueues only.
     void enqueue(const LitPixels& lit, const ShadowWords& words, const ShadowSamples& samples,
                  StageTimer& timer);

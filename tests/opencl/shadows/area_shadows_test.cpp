@@ -26,7 +26,8 @@ struct AreaFrame {
     std::vector<float> whole, listed, all, variance, all_variance;
 };
 
-AreaFrame area_frame(int lanes, int group, uint width = 33, int shading = SHADING_PBR) {
+AreaFrame area_frame(int lanes, int group, uint width = 33, int shading = SHADING_PBR,
+                     uint lights_count = 6) {
     const Gpu gpu = test_gpu(lanes);
     Tuning tuning = default_tuning(gpu.info);
     tuning.shade_stage = 0;
@@ -41,7 +42,7 @@ AreaFrame area_frame(int lanes, int group, uint width = 33, int shading = SHADIN
     shape.height = 17;
     const View view = make_view(shape);
     LightMix mix;
-    mix.count = 6;
+    mix.count = lights_count;
     mix.range_min = 20;
     mix.range_max = 60;
     const ClusterGrid grid = make_cluster_grid({2, 2, 1, 1.0f, 30.0f}, view.width, view.height);
@@ -98,6 +99,14 @@ TEST(AreaShadows, LanesAndFormsChangeNoBit) {
         EXPECT_EQ(frame.variance, one.variance) << lanes;
     }
     for (const int group : {0, 64, 128}) EXPECT_EQ(area_frame(1, group).listed, one.listed);
+}
+
+// Of many lights a pixel picks few, so that most are no candidates.
+TEST(AreaShadows, OfManyLightsAreThoseOfEveryLight) {
+    const AreaFrame frame = area_frame(16, 1, 33, SHADING_PBR, 200);
+    EXPECT_EQ(frame.listed, frame.all);
+    EXPECT_EQ(frame.variance, frame.all_variance);
+    EXPECT_NE(frame.listed, frame.whole);
 }
 
 TEST(AreaShadows, OfMattSurfacesHaveNoGlossyRays) {

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// The common part of what a work-group of GROUP items does in cast_shadows_by_group.cl: its shared
+// memory, boxes that it grows together, and its walk through the hierarchy.
+#ifndef KILOLUX_DEVICE_SHADOW_GROUP_H
+#define KILOLUX_DEVICE_SHADOW_GROUP_H
+#include "kernels/shadows/cast_shadows.h"
+#include "kernels/shadows/shadow_cast.h"
+
+// A work-group takes every SPLIT-th light of a tile.
+#ifndef SPLIT
+#define SPLIT 4
+#endif
+#define NODES_AT_ONCE (GROUP / SHADOW_WIDTH)
+// Most triangles that wait for their test.
+#define GROUP_FOUND (2 * GROUP)
+// float4 of a triangle: its forms and the edges' units with its child's number; or, of a light with
+// a size, its corners with the number, and its box.
+#define FORM_FLOAT4S 5
+// Most rays of a walk to a light with a size, and most pairs of them and triangles that wait for
+// their test.
+#define GROUP_RAYS 128u
+#define GROUP_PAIRS (4u * GROUP)
+// Words of a slot at most: a tile's pixels and the places beside them.
+#define GROUP_WORDS 16u
+
+// A box that items grow together, as ordered_bits.
+typedef struct GroupBox {
+    int low[3], high[3];
+} GroupBox;
+
+#if AREA_SHADOWS
+// Rays to a light with a size.
+typedef struct GroupRays {
+    float4 origins[GROUP_RAYS], targets[GROUP_RAYS];  // xyz [m]
+    uint bits[GROUP_RAYS];      // number of the word among the light's times 32, and of the bit
+    uint lit[GROUP_RAYS];       // 1 while nothing is found to hide the target
+    ushort pairs[GROUP_PAIRS];  // number of a triangle times GROUP_RAYS, and of the ray
+    uint pair_count[2];         // of every second round
+    uint count;                 // may exceed GROUP_RAYS
+    uint any_left;              // 1 where it does
+    GroupBox targets_box;
+} GroupRays;
+#endif
+
+// The memory that the items share.
+typedef struct GroupWalk {
+    uint stack[SHADOW_STACK];
+    uint found[GROUP_FOUND];
+    uint nodes[NODES_AT_ONCE];          // off the stack
+    float4 forms[GROUP][FORM_FLOAT4S];  // of the triangles that are tested
+    uint top, count;                    // of stack and found
+    uint tested;                        // triangles
+    uint lit;                           // 1 while some point is
+    uint picked;                        // bits of lights
+    uchar flags[FINE_TILE_PIXELS];      // of places: 1 where lit
+#if COUNT_SHADOWS
+    ShadowCounts counts[GROUP];  // of the items: nodes, triangles and shafts by each for all
+#endif
+    GroupBox box;  // of the points
+#if AREA_SHADOWS
+    GroupRays rays;
+#endif
+} GroupWalk;
+
+// The lights of one cluster and where their bits are.
+typedef struct ClusterCast {
+    ShadowScene scene;
+    CastLights from;
+    global const ActiveCluster* cluster;
+    uint key;            // of the tile
+    uint first, end;     // the cluster's pixels are first .. end - 1 in the tile's order
+    uint count;          // words of each slot
+    global uint* words;  // of the cluster
+} ClusterCast;
+
+static inline uint this_item(void) { return get_local_id(0); }
+
+// Floats' order, negative ones included, as integers'; its own inverse on bits.
+static inline int ordered_bits(int bits) { return bits ^ (bits >> 31 & 0x7fffffff); }
+
+// Item 0 .. 2 empties a box.
+static inline void empty_box(local GroupBox* box) {
+    if (this_item() >= 3u) return;
+    box->low[this_item()] = ordered_bits(as_int(SHADOW_NOWHERE));
+    box->high[this_item()] = ordered_bits(as_int(-SHADOW_NOWHERE));
+}
+
+static inline void grow_box(local GroupBox* box, FV3 p) {
+    const float at[3] = {p.x, p.y, p.z};
+#pragma unroll
+    for (uint axis = 0; axis < 3; ++axis) {
+        atomic_min(&box->low[axis], ordered_bits(as_int(at[axis])));
+        atomic_max(&box->high[axis], ordered_bits(as_int(at[axis])));
+    }
+}
+
+static inline float3 box_end(local const int* end) {
+    return (float3)(as_float(ordered_bits(end[0])), as_float(ordered_bits(end[1])),
+                    as_float(ordered_bits(end[2])));
+}
+
+static inline global uint* words_of_light(ClusterCast cast, uint j) {
+    return cast.words + slots_before(cast.from, j) * cast.count;
+}
+
+static inline ShadowLight light_of_cast(ClusterCast cast, uint j) {
+    return light_of_cluster(cast.from, cast.scene.view, cast.cluster, j, cast.key);
+}
+
+#if PICKED_ONLY
+// Which of the cluster's lights first, first + SPLIT, ..., 32 of them at most, any pixel picks.
+static inline uint find_picked(ClusterCast cast, uint first, local GroupWalk* walk) {
+    barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);  // the last ones are done
+    if (this_item() == 0u) walk->picked = 0u;
+    barrier(CLK_LOCAL_MEM_FENCE);  // 0 before any adds to it
+    uint word = this_item() % GROUP_WORDS;
+    for (uint k = this_item() / GROUP_WORDS; k < 32u; k += GROUP / GROUP_WORDS) {
+        uint j = first + k * SPLIT;
+        if (j >= count_of_cluster(cast.from, cast.cluster)) break;
+        if (word >= cast.count) continue;
+        uint bits = 0u;
+        for (uint slot = 0; slot < slots_of(cast.from, j); slot = next_lobe(cast.from, slot)) {
+            bits |= words_of_light(cast, j)[slot * cast.count + word];
+        }
+        if (bits != 0u) atomic_or(&walk->picked, 1u << k);
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);  // complete
+    return walk->picked;
+}
+#else
+#define find_picked(cast, first, walk) 0xffffffffu
+#endif
+
+// Begins a walk at the root, which no item's points are yet to be lit for.
+static inline void begin_walk(local GroupWalk* walk) {
+    if (this_item() != 0u) return;
+    walk->stack[0] = 0u;
+    walk->top = 1u;
+    walk->count = 0u;
+    walk->lit = 0u;
+}
+
+// How many of the `top` nodes on the stack are taken at once: so many that afterwards a walk that
+// takes one at a time still has room, which needs SHADOW_WIDTH - 1 entries a level.
+static inline uint nodes_to_take(ShadowView view, uint top) {
+    uint levels = view.levels != 0u ? view.levels : SHADOW_LEVELS;
+    uint room = SHADOW_STACK - 1u - levels * (SHADOW_WIDTH - 1u);
+    uint take = min(top, (uint)NODES_AT_ONCE);
+    return top + take * (SHADOW_WIDTH - 1u) <= room ? take : 1u;
+}
+
+// Takes `take` nodes off the stack, and puts those of their children that the shaft meets on the
+// stack or into the found triangles.
+static inline void walk_nodes(ShadowScene scene, Shaft shaft, uint top, uint take,
+                              local GroupWalk* walk) {
+    if (this_item() == 0u) walk->top = top - take;
+    if (this_item() < take) walk->nodes[this_item()] = walk->stack[top - 1u - this_item()];
+    barrier(CLK_LOCAL_MEM_FENCE);  // popped before any is pushed
+    uint place = this_item() % SHADOW_WIDTH;
+    uint mine = this_item() / SHADOW_WIDTH;
+    global const ShadowNode* node = scene.nodes + (mine < take ? walk->nodes[mine] : 0u);
+    if (mine < take && lane_any(meets_children(shaft, node, place))) {
+        uint child = node->child[place];
+        if ((child & SHADOW_LEAF) != 0u) {
+            walk->found[atomic_inc(&walk->count)] = child;
+        } else {
+            walk->stack[atomic_inc(&walk->top)] = child;
+        }
+    }
+}
+#endif
