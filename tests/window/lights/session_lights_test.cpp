@@ -185,6 +185,28 @@ TEST_F(LightsOfTheWindow, RefuseWhatHasNoLightOfThem) {
     play_with(script);
 }
 
+// Values that are kept from other scenes do not hinder the window.
+TEST_F(LightsOfTheWindow, KeptSettingsThatExcludeThemWait) {
+    const auto opens = [&](const std::string& kept, const std::vector<std::string>& more) {
+        fs::create_directories(folder_ / "kilolux");
+        write_text(folder_ / "kilolux" / "view.json", R"({"version": 2, )" + kept + "}");
+        std::vector<std::string> words = {"view",  room_.string(), "--resolution", "700,420",
+                                          "--rig", "none",         "--exit-after", "1"};
+        words.insert(words.end(), more.begin(), more.end());
+        const ChildResult result =
+            view_in_display({"XDG_CONFIG_HOME=" + folder_.path().string()}, words);
+        EXPECT_EQ(result.code, 0) << result.err;
+        EXPECT_NE(result.err.find("not the kept value"), std::string::npos) << result.err;
+    };
+    opens(R"("shadows": "exact")", {});
+    opens(R"("shading": "blinn-phong")", {});
+    EXPECT_EQ(nlohmann::json::parse(text_of_file(folder_ / "kilolux" / "view.json")).at("shading"),
+              "blinn-phong")
+        << "for other scenes";
+    write_scene(lit_room(false), room_);
+    opens(R"("light-size": 0.1)", {"--lights", "10", "--shadows", "exact"});
+}
+
 TEST_F(LightsOfTheWindow, HaveOutlines) {
     Script script(folder_);
     script.shot("none").line("open scene lights").line("click light outlines").line("away");
