@@ -52,10 +52,9 @@ bool change_number(Widgets& ui, const LightNumber& number, SceneLight& light) {
     bool lacks = may_lack && member == 0.0f;
     const double start = lacks_range(light) ? range_of_light(brightest(light.intensity)) : 1.0;
     double shown = lacks ? start : double{member} / unit;
-    const DragRange range = number.is_angle ? DragRange{0.0, 90.0, 0.25, "%.4g deg"}
-                            : number.is_positive
-                                ? DragRange{kLeast, kMost, step_of(shown), "%.4g m"}
-                                : DragRange{-kMost, kMost, step_of(shown, 0.1), "%.4g m"};
+    DragRange range{number.is_positive ? kLeast : -kMost, kMost,
+                    step_of(shown, number.is_positive ? 1e-3 : 0.1), lacks ? "none" : "%.4g m"};
+    if (number.is_angle) range = {0.0, 90.0, 0.25, "%.4g deg"};
     const std::string label = label_of(number);
     bool changed = ui.drag(label.c_str(), shown, range, may_lack ? "none" : "");
     if (changed) member = static_cast<float>(shown * unit);
