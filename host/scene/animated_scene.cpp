@@ -162,6 +162,16 @@ void AnimatedScene::replace_lights(const std::vector<SceneLight>& lights) {
     add_lights(lights);
 }
 
+std::span<const SceneLight> AnimatedScene::own_lights() const {
+    return std::span(scene_.lights).first(scene_.lights.size() - added_lights_.size());
+}
+
+std::vector<NumberedLight> AnimatedScene::exchange_lights(std::vector<NumberedLight> lights) {
+    for (NumberedLight& one : lights) std::swap(scene_.lights.at(one.number), one.light);
+    if (!lights.empty()) ++scene_.revisions.lights;
+    return lights;
+}
+
 void AnimatedScene::set_time(double time) {
     if (!file_ || file_->time == time) return;
     file_->document.options.time = time;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "host/scene/enclosure.h"
@@ -12,6 +13,13 @@ namespace kilolux {
 
 struct PlacedNodes;
 struct ShapePlan;
+
+/// One of a scene's lights and its place among them.
+struct NumberedLight {
+    std::size_t number = 0;
+    SceneLight light;
+    bool operator==(const NumberedLight&) const = default;
+};
 
 /// A scene that can be set to any time: what moves is evaluated again, the rest is kept.
 ///
@@ -53,6 +61,11 @@ class AnimatedScene {
     /// The added lights; and their replacement.
     const std::vector<SceneLight>& added_lights() const { return added_lights_; }
     void replace_lights(const std::vector<SceneLight>& lights);
+
+    /// The lights before the added ones.
+    std::span<const SceneLight> own_lights() const;
+    /// Replaces some of these, until the time changes, and returns what they were.
+    std::vector<NumberedLight> exchange_lights(std::vector<NumberedLight> lights);
 
     Scene take() && { return std::move(scene_); }
 

@@ -132,7 +132,7 @@ void visit_more_lights(const SettingVisitor& f, SharedOptions& o) {
                {"--light-size", "R", "",
                 "Radius of generated points, and of the file's points that give none; they become "
                 "spheres of the same intensity",
-                kPicture, "m"},
+                kPanelPicture, "m"},
                take_size, [&s] { return text_of(s.lights.size); })
         .value({"--light-box", "X0,Y0,Z0,X1,Y1,Z1", "the scene's", "Where they are", kPicture, "m"},
                s.lights.box, parse_box)

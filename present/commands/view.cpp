@@ -3,9 +3,11 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <set>
 
 #include "host/base/error.h"
 #include "host/base/log.h"
+#include "host/render/plan/settings_check.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/scene_choice.h"
 #include "present/image/image_file.h"
@@ -29,9 +31,32 @@ bool take_kept_rig(SharedOptions& shared, const CLI::App& command, StateFile& fi
     return shared.rig != Rig::automatic;
 }
 
+// Kept settings that exclude lights with a size, where the scene or the command line has some, and
+// a kept size where the command line has such settings: these wait for another run.
+std::set<std::string> excluded_options(const ViewOptions& options, const CLI::App& command,
+                                       const Scene& scene, const RenderSettings& kept) {
+    const RenderSettings& asked = options.shared.settings;
+    const auto is_asked = [&](const char* name) { return is_given(command, name); };
+    const Shading shading = is_asked("--shading") ? asked.shading : kept.shading;
+    const Shadows shadows = is_asked("--shadows") ? asked.shadows : kept.shadows;
+    std::set<std::string> out;
+    const auto exclude = [&](const char* name, const std::string& problem) {
+        if (problem.empty() || is_asked(name)) return;
+        note(std::string(name) + ": not the kept value: " + problem);
+        out.insert(name);
+    };
+    if (has_area_lights(scene.lights, asked.lights)) {
+        exclude("--shading", area_lights_problem(model_of(shading), Shadows::off));
+        exclude("--shadows", area_lights_problem(SHADING_PBR, shadows));
+    } else if (kept.lights.size > 0.0) {
+        exclude("--light-size", area_lights_problem(model_of(shading), shadows));
+    }
+    return out;
+}
+
 // The kept state; values of the command line replace the kept ones. `asked`: before light_scene().
 ViewState start_state(const ViewOptions& options, const CLI::App& command, StateFile& file,
-                      const SharedOptions& asked, bool keeps_rig) {
+                      const SharedOptions& asked, const Scene& scene, bool keeps_rig) {
     ViewState state;
     state.rig = asked.rig;
     state.settings = options.shared.settings;
@@ -51,14 +76,16 @@ ViewState start_state(const ViewOptions& options, const CLI::App& command, State
     }
     // Lights and ambient light are kept with their rig; the command line's rig, if not a swarm, has
     // its own.
-    const Rig kept = kept_state(file).rig;
+    const ViewState last = kept_state(file);
+    const Rig kept = last.rig;
+    const std::set<std::string> excluded = excluded_options(options, command, scene, last.settings);
     const bool is_swarm = options.shared.rig == Rig::automatic || options.shared.rig == Rig::swarm;
     const bool of_other_rig = kept != Rig::automatic && kept != Rig::swarm;
     const bool rig_decides = !keeps_rig && (!is_swarm || of_other_rig);
     return file.load(state, [&](const std::string& name) {
         const bool of_rig = name == "--lights" || name == "--ambient";
-        return is_given(command, name) || name == "--rig" || (rig_decides && of_rig) ||
-               (counts && name == "--samples");
+        return is_given(command, name) || excluded.contains(name) || name == "--rig" ||
+               (rig_decides && of_rig) || (counts && name == "--samples");
     });
 }
 
@@ -87,7 +114,7 @@ void run_view(ViewOptions& options, const CLI::App& command) {
     AnimatedScene scene = open_animated_scene(options.shared);
     note(light_scene(options.shared, scene));
     session.shared = options.shared;
-    session.state = start_state(options, command, file, session.asked, keeps_rig);
+    session.state = start_state(options, command, file, session.asked, scene.scene(), keeps_rig);
     const Window context({16, 16}, "Kilolux", false);
     Window window(session.state.window_size, "Kilolux - " + options.shared.scene, true);
     window.show();

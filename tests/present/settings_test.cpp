@@ -176,7 +176,7 @@ TEST(Settings, OfThePanelComeBack) {
         "--renderer", "--samples",    "--show",       "--gbuffer",      "--shading",
         "--shadows",  "--ambient",    "--exposure",   "--tonemap",      "--bloom",
         "--rig",      "--lights",     "--light-seed", "--light-radius", "--light-intensity",
-        "--tails",    "--tree-share", "--grid",       "--lanes"};
+        "--tails",    "--tree-share", "--grid",       "--lanes",        "--light-size"};
     auto options = initial<SharedOptions>();
     for (const Setting& setting : settings_of(options)) {
         EXPECT_EQ(setting.text.effect.in_panel, panel.contains(setting.option()))

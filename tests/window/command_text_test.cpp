@@ -61,6 +61,7 @@ TEST(CommandText, ReproducesEverySetting) {
     s.lights.seed = 7;
     s.lights.radius = 0.1;
     s.lights.intensity = 2.0 / 3.0;
+    s.lights.size = 0.07;
     s.gbuffer = GBUFFER_FULL;
     s.shading = Shading::blinn_phong;
     s.ambient = 0.3f;

@@ -79,6 +79,21 @@ inline ScenePart scene_part(const fs::path& file, int left = kPanel) {
     return out;
 }
 
+/// The picture that the command line renders with these options to `file`, in the part of a window
+/// of 700 x 420 pixels that shows the scene.
+inline ScenePart rendered(const fs::path& file, std::vector<std::string> options,
+                          const std::string& scene = "plain") {
+    static_assert(700 - kPanel == 340);
+    std::vector<std::string> words = {"render",  scene, "-q",         "--resolution",
+                                      "340,420", "-o",  file.string()};
+    words.insert(words.end(), options.begin(), options.end());
+    const ChildResult result = run_kilolux(words);
+    EXPECT_EQ(result.code, 0) << result.err;
+    ScenePart out = scene_part(file, 0);
+    out.width += kPanel;
+    return out;
+}
+
 inline double mean_of(const ScenePart& a) {
     double sum = 0.0;
     for (const float v : a.values) sum += static_cast<double>(v);

@@ -30,6 +30,7 @@ ViewState unusual_state() {
     state.settings.kernels.lanes = 4;
     state.settings.lights.count = 123456;
     state.settings.lights.radius = 0.1;
+    state.settings.lights.size = 0.05;
     state.settings.grid = {20, 11, 8, 32};
     state.rig = Rig::headlight;
     state.lights_move = true;

@@ -166,10 +166,7 @@ void LightSource::upload_tables() {
     input_.extras.profile_tables = uploaded_tables_.get();
 }
 
-// As the scene plan's SceneFeatures::area_lights.
-bool LightSource::has_area_lights() const {
-    return (options_.count > 0 && options_.size > 0.0) || std::ranges::any_of(own_, &is_area_light);
-}
+bool LightSource::has_area_lights() const { return kilolux::has_area_lights(own_, options_); }
 
 // Uploads a row beside each light's: `row_of` makes it, `drifting_row` is that of generated ones.
 template <typename Row>

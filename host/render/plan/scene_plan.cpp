@@ -7,6 +7,7 @@
 
 #include "host/base/error.h"
 #include "host/render/plan/settings_check.h"
+#include "host/scene/lights/light_generator.h"
 #include "host/scene/lights/light_kinds.h"
 #include "host/scene/lights/light_region.h"
 #include "host/scene/lights/light_tree.h"
@@ -143,7 +144,7 @@ ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings,
     const int shading = shading_of(settings, materials);
     SceneFeatures features = features_of(scene, materials);
     features.point_lights = light_count > 0;
-    features.area_lights |= settings.lights.count > 0 && settings.lights.size > 0.0;
+    features.area_lights = has_area_lights(scene.lights, settings.lights);
     if (features.area_lights) check_area_lights(shading, settings.shadows);
     features.wide_light_index = light_count > 65536;
     features.shadows = settings.shadows != Shadows::off && triangle_count(scene) > 0;

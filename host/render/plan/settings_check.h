@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "host/render/settings.h"
 
 namespace kilolux {
@@ -9,8 +11,11 @@ namespace kilolux {
 /// refuse them before it loads one; Error for a name that settings.force_features does not know.
 void check_settings(const RenderSettings& settings);
 
-/// Throws UsageError where a shading model (SHADING_*) or shadows have no light of lights with a
-/// size.
+/// Why a shading model (SHADING_*) or shadows have no light of lights with a size: "shadows exact:
+/// ...". Empty where they have.
+std::string area_lights_problem(int shading, Shadows shadows);
+
+/// Throws UsageError where area_lights_problem() says something.
 void check_area_lights(int shading, Shadows shadows);
 
 /// Whether Tails::tree can light the scene with these settings: a tree's nodes cast no shadows, and

@@ -47,8 +47,7 @@ void read_flat_size(SceneLight& out, const json& source, const glm::dmat4& world
 SceneLight convert_light(const GltfDocument& document, std::size_t e, std::size_t light,
                          const glm::dmat4& world_from_node = glm::dmat4(1.0)) {
     const json& source = document.lights[e][light];
-    const double own_radius = radius_of(source);
-    const double radius = own_radius > 0.0 ? own_radius : document.options.light_size;
+    const double radius = radius_of(source);
     const LightKind& kind = kind_in_file(source, kLightExtensions[e], radius);
     SceneLight out;
     out.type = kind.type;
@@ -66,6 +65,7 @@ SceneLight convert_light(const GltfDocument& document, std::size_t e, std::size_
     for (glm::length_t c = 0; c < 3; ++c) {
         out.intensity[c] = to_float(color[static_cast<std::size_t>(c)] * intensity * unit);
     }
+    set_point_size(out, document.options.light_size);
     return out;
 }
 

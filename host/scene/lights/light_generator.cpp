@@ -14,6 +14,7 @@
 #include "host/base/error.h"
 #include "host/base/light_cells.h"
 #include "host/base/point_pair.h"
+#include "host/scene/lights/light_kinds.h"
 
 namespace kilolux {
 namespace {
@@ -235,6 +236,10 @@ SceneLight LightGenerator::operator[](std::uint64_t light) const {
     out.radius = static_cast<float>(options_.size);
     if (out.radius > 0.0f) out.type = LightType::sphere;
     return out;
+}
+
+bool has_area_lights(std::span<const SceneLight> lights, const LightOptions& options) {
+    return (options.count > 0 && options.size > 0.0) || std::ranges::any_of(lights, &is_area_light);
 }
 
 std::vector<SceneLight> generate_lights(const LightOptions& options, const Scene& scene,

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "host/scene/lights/light_region.h"
@@ -23,6 +24,9 @@ struct LightOptions {
     Box box;            // empty: see light_region()
     bool operator==(const LightOptions&) const = default;
 };
+
+/// Whether one of a scene's lights or of those that `options` generate has a size.
+bool has_area_lights(std::span<const SceneLight> lights, const LightOptions& options);
 
 /// The lights of `options` at `time` [s]. A closed form of (seed, light, time): the same on every
 /// machine, order and thread count; every light stays inside its region. Runs on all cores.

@@ -116,12 +116,23 @@ struct LightNumber {
     // extension lacks is among the extras.
     std::array<std::string_view, kLightExtensions.size()> paths{};
     bool is_positive = false;  // a light of 0 or less gives none
+    bool is_angle = false;     // [rad], else [m]
 };
 
 inline constexpr auto kLightNumbers = std::to_array<LightNumber>({
     {"range", &SceneLight::range, &LightKind::is_placed, {"range", "extras.range"}, true},
-    {"inner_cone", &SceneLight::inner_cone, &LightKind::has_cone, {"spot.innerConeAngle"}},
-    {"outer_cone", &SceneLight::outer_cone, &LightKind::has_cone, {"spot.outerConeAngle"}, true},
+    {"inner_cone",
+     &SceneLight::inner_cone,
+     &LightKind::has_cone,
+     {"spot.innerConeAngle"},
+     false,
+     true},
+    {"outer_cone",
+     &SceneLight::outer_cone,
+     &LightKind::has_cone,
+     {"spot.outerConeAngle"},
+     true,
+     true},
     {"height", &SceneLight::height, &LightKind::is_flat, {"", "size"}, true},
     {"width", &SceneLight::width, &LightKind::is_flat, {}, true},
     {"skew", &SceneLight::skew, &LightKind::has_skew},

@@ -69,4 +69,12 @@ void set_triangle(SceneLight& light, const glm::dvec3& a, const glm::dvec3& b,
     light.skew = static_cast<float>(glm::dot(y, light.side));
 }
 
+void set_point_size(SceneLight& light, double radius) {
+    const bool is_point = light.type == LightType::point && light.profile < 0;
+    if (!is_point && !light.is_sized_point) return;
+    light.is_sized_point = radius > 0.0;
+    light.type = light.is_sized_point ? LightType::sphere : LightType::point;
+    light.radius = static_cast<float>(radius);
+}
+
 }  // namespace kilolux

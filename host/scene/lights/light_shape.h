@@ -26,4 +26,9 @@ double bounding_radius(const SceneLight& light);
 /// counter-clockwise order. Its position is the centroid; without an area it has no direction.
 void set_triangle(SceneLight& light, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
 
+/// Makes a point a sphere of this radius [m] and of the same intensity, as `--light-size` does; at
+/// 0 such a sphere is a point again. Lights of another kind, with a radius of their own, or with a
+/// photometric web stay as they are.
+void set_point_size(SceneLight& light, double radius);
+
 }  // namespace kilolux

@@ -47,6 +47,7 @@ struct PictureRequest {
     std::span<uint> pixels;                          // rows display_stride() apart
     int samples = 0;                                 // of settings.samples; 0: all
     Rig rig{};                                       // the rig whose lights the scene has
+    std::uint32_t own_lights = 0;                    // their version, OwnLights::version()
     std::shared_ptr<PictureProgress> progress = {};  // null: not needed
 };
 

@@ -29,6 +29,13 @@ void take_lit(RenderSettings& settings, const SharedOptions& lit) {
     settings.reflections = lit.maps;
 }
 
+// Takes the settings that decide automatic tails.
+void take_tail_settings(RenderSettings& settings, const RenderSettings& from) {
+    settings.tails = from.tails;
+    settings.renderer = from.renderer;
+    settings.shadows = from.shadows;
+}
+
 }  // namespace
 
 bool SceneLights::fit(const ViewState& state) const {
@@ -52,18 +59,37 @@ void SceneLights::replace(RenderWorker& worker, const ViewState& state,
                           const RenderSettings& settings) {
     lit_.settings.range_budget = asked_.settings.range_budget;
     for (SharedOptions* options : {&asked_, &lit_}) {  // a failure is not tried again
-        options->settings.tails = state.settings.tails;
-        options->settings.renderer = state.settings.renderer;
-        options->settings.shadows = state.settings.shadows;
+        take_tail_settings(options->settings, state.settings);
     }
-    const SharedOptions asked = with_rig(asked_, state.rig);
-    relit_ = Awaited(worker.ask([&scene = scene_, asked, settings](Renderer& renderer) {
-        Relit out{asked, {}};
-        RenderSettings next = settings;
-        const std::vector<SceneLight> former = scene.added_lights();
+    ask(worker, with_rig(asked_, state.rig), settings, true);
+}
+
+void SceneLights::change(RenderWorker& worker, const ViewState& state,
+                         const RenderSettings& settings) {
+    SharedOptions asked = lit_;
+    take_tail_settings(asked_.settings, state.settings);
+    take_tail_settings(asked.settings, state.settings);
+    asked.settings.lights.count = state.settings.lights.count;
+    asked.settings.ambient = state.settings.ambient;
+    asked.settings.range_budget = asked_.settings.range_budget;
+    ask(worker, asked, settings, false);
+}
+
+void SceneLights::ask(RenderWorker& worker, const SharedOptions& asked,
+                      const RenderSettings& settings, bool with_rig) {
+    relit_ = Awaited(worker.ask([&scene = scene_, own = own_.begin_sending(), asked, settings,
+                                 with_rig](Renderer& renderer) {
+        Relit out{asked, {}, with_rig};
+        const std::vector<SceneLight> former_added = scene.added_lights();
+        const std::vector<NumberedLight> former_own = scene.exchange_lights(own);
         try {
-            scene.replace_lights({});
-            out.line = light_scene(out.options, scene);
+            if (with_rig) {
+                scene.replace_lights({});
+                out.line = light_scene(out.options, scene);
+            } else {
+                choose_tails(out.options, scene.scene());
+            }
+            RenderSettings next = settings;
             take_lit(next, out.options);
             next.tails = out.options.settings.tails;
             next.range_budget = out.options.settings.range_budget;
@@ -71,20 +97,28 @@ void SceneLights::replace(RenderWorker& worker, const ViewState& state,
             renderer.refit();
             return out;
         } catch (...) {
-            scene.replace_lights(former);
+            scene.exchange_lights(former_own);
+            scene.replace_lights(former_added);
             throw;
         }
     }));
 }
 
 void SceneLights::take(ViewState& state, const OnFailure& failed) {
+    if (!are_changing()) return;
     const auto take_relit = [&](Relit relit) {
-        note(relit.line);
-        take_lit(state.settings, relit.options);
+        own_.end_sending(true);
+        if (relit.with_rig) {
+            note(relit.line);
+            take_lit(state.settings, relit.options);
+            rig_ = state.rig;
+        }
         lit_ = std::move(relit.options);
-        rig_ = state.rig;
     };
-    if (!relit_.take(take_relit, failed)) state.rig = rig_;
+    if (relit_.take(take_relit, failed)) return;
+    own_.end_sending(false);
+    state.rig = rig_;
+    state.settings.lights.size = own_.point_size();
 }
 
 void SceneLights::forget_command_line(const RenderSettings& defaults) {

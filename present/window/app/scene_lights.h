@@ -6,18 +6,27 @@
 #include "host/scene/animated_scene.h"
 #include "present/cli/options.h"
 #include "present/window/app/awaited.h"
+#include "present/window/app/own_lights.h"
 #include "present/window/app/render_worker.h"
 #include "present/window/app/view_state.h"
 
 namespace kilolux {
 
-/// The lights that a rig adds to the scene. The panel chooses another rig; the worker then replaces
-/// the lights.
+/// The scene's own lights, and those that a rig adds to them. The panel changes lights and chooses
+/// another rig; the worker then replaces the scene's.
 class SceneLights {
  public:
     /// `asked`: the options before light_scene(); `lit`: after it.
     SceneLights(AnimatedScene& scene, SharedOptions asked, SharedOptions lit, Rig rig)
-        : scene_(scene), asked_(std::move(asked)), lit_(std::move(lit)), rig_(rig) {}
+        : scene_(scene),
+          asked_(std::move(asked)),
+          lit_(std::move(lit)),
+          rig_(rig),
+          own_({scene.own_lights().begin(), scene.own_lights().end()}, lit_.load.light_size) {}
+
+    /// The scene's own lights as the user wants them.
+    OwnLights& own() { return own_; }
+    const OwnLights& own() const { return own_; }
 
     /// Whether the lights and their tails are those of the state's rig, renderer and shadows.
     bool fit(const ViewState& state) const;
@@ -26,10 +35,14 @@ class SceneLights {
 
     /// Asks for the lights of the state's rig; `settings`: of the next picture.
     void replace(RenderWorker& worker, const ViewState& state, const RenderSettings& settings);
+    /// Asks only for the changes of the scene's own lights.
+    void change(RenderWorker& worker, const ViewState& state, const RenderSettings& settings);
     /// Takes the new lights, and writes the settings that depend on them to the state. After a
     /// failure the former lights stay.
     void take(ViewState& state, const OnFailure& failed);
     bool are_changing() const { return relit_.is_open(); }
+    /// Whether the scene lacks lights that the user wants.
+    bool are_awaited() const { return are_changing() || own_.has_news(); }
 
     /// Later rigs use the program's defaults instead of the command line's options of lights.
     void forget_command_line(const RenderSettings& defaults);
@@ -41,11 +54,15 @@ class SceneLights {
     struct Relit {
         SharedOptions options;  // after light_scene()
         std::string line;       // the lines of light_scene()
+        bool with_rig = true;   // else only own lights have changed
     };
+    void ask(RenderWorker& worker, const SharedOptions& asked, const RenderSettings& settings,
+             bool with_rig);
 
     AnimatedScene& scene_;  // its lights are the worker's
     SharedOptions asked_, lit_;
     Rig rig_;
+    OwnLights own_;
     Awaited<Relit> relit_;
 };
 

@@ -13,7 +13,9 @@
 #include "present/cli/names.h"
 #include "present/cli/scene_choice.h"
 #include "present/window/app/command_text.h"
+#include "present/window/overlay/light_outlines.h"
 #include "present/window/panel/key_bindings.h"
+#include "present/window/panel/panel_lights.h"
 #include "present/window/panel/panel_settings.h"
 #include "present/window/panel/panel_stats.h"
 #include "raster/gl_context.h"
@@ -25,6 +27,11 @@ constexpr double kIdleSeconds = 0.25;  // signals are checked that often
 constexpr double kBusySeconds = 0.1;   // while a thread works; its end wakes the loop
 constexpr std::chrono::milliseconds kStopPatience(200);
 constexpr int kSmallestKept = 64;  // [pixel] of the window's edges, from run to run
+
+// What a command line cannot say.
+std::string unsaid_lights(std::size_t changed) {
+    return changed == 0 ? "" : fmt::format(" without the changes of {} lights", changed);
+}
 
 }  // namespace
 
@@ -42,7 +49,7 @@ ViewSession::ViewSession(AnimatedScene& scene, SessionOptions options, StateFile
       pictures_(state_, frames_, steering_.rig(), lights_, options_.shared.time,
                 options_.exit_after > 0),
       facts_{.scene = scene_,
-             .has_unranged_lights = std::ranges::any_of(scene_.lights, lacks_range),
+             .own_lights = lights_.own(),
              .triangles = triangle_count(scene_),
              .opengl = gl_string(GL_RENDERER) + ", " + gl_string(GL_VERSION),
              .error = error_} {
@@ -117,7 +124,7 @@ void ViewSession::take_results() {
                    failed);
     limits_.take([this](const DeviceLimits& limits) { facts_.limits = limits; }, failed);
     lights_.take(state_, failed);
-    if (!lights_.are_changing()) obey_actions(std::exchange(held_back_, {}));
+    if (!lights_.are_awaited()) obey_actions(std::exchange(held_back_, {}));
     // After these the renderer's last picture is not the window's.
     if (error_.take(failed)) pictures_.queue().forget_request();
     saving_.take(
@@ -147,8 +154,15 @@ void ViewSession::obey_input() {
 
 void ViewSession::request_picture() {
     if (is_resting()) return;
-    if (!lights_.fit(state_) && !lights_.are_changing()) {
-        lights_.replace(*worker_, state_, pictures_.wanted().settings);
+    lights_.own().set_point_size(state_.settings.lights.size);
+    if (!lights_.are_changing()) {
+        const auto settings = [this] { return pictures_.wanted().settings; };
+        // While a light is dragged, every change that the scene takes is shown.
+        if (!lights_.fit(state_)) {
+            lights_.replace(*worker_, state_, settings());
+        } else if (lights_.own().has_news() && pictures_.show_own_lights()) {
+            lights_.change(*worker_, state_, settings());
+        }
     }
     // While lights are being replaced, the settings do not fit those that are there.
     if (!lights_.are_changing()) pictures_.request(*worker_);
@@ -167,7 +181,7 @@ bool ViewSession::is_resting() const {
 }
 
 bool ViewSession::is_busy() const {
-    return limits_.is_open() || clusters_.is_open() || error_.is_open() || lights_.are_changing() ||
+    return limits_.is_open() || clusters_.is_open() || error_.is_open() || lights_.are_awaited() ||
            saving_.is_open() || pictures_.are_busy();
 }
 
@@ -178,7 +192,7 @@ PictureState ViewSession::picture_state() const {
 }
 
 void ViewSession::obey_actions(Actions actions) {
-    if (lights_.are_changing()) hold_back(actions);
+    if (lights_.are_awaited()) hold_back(actions);
     Window& window = frames_.window();
     const auto save = [this](const char* extension) {
         saving_.begin(*worker_, pictures_.wanted_whole(), lights_.options(), extension);
@@ -190,7 +204,12 @@ void ViewSession::obey_actions(Actions actions) {
             camera_of(scene_.cameras.at(static_cast<std::size_t>(*actions.scene_camera))));
     }
     if (actions.copy_camera) copy(camera_options(steering_.rig(), lights_.options(), scene_));
-    if (actions.copy_command) copy(command());
+    if (actions.copy_command) copy(command(), unsaid_lights(lights_.own().changed_count()));
+    if (actions.change_light) {
+        lights_.own().change(actions.change_light->number, actions.change_light->light);
+    }
+    if (actions.reset_light) lights_.own().reset(*actions.reset_light);
+    if (actions.reset_lights) lights_.own().reset();
     if (actions.measure_error)
         error_.begin(*worker_, pictures_.wanted(), [this] { frames_.wake(); });
     if (actions.save_png) save(".png");
@@ -228,9 +247,9 @@ void ViewSession::reset_settings() {
     file_.forget();
 }
 
-void ViewSession::copy(const std::string& text) {
+void ViewSession::copy(const std::string& text, const std::string& remark) {
     frames_.window().set_clipboard(text);
-    messages_.show("copied: " + text, frames_.clock().now());
+    messages_.show("copied" + remark + ": " + text, frames_.clock().now());
     frames_.redraw_soon();
 }
 
@@ -256,6 +275,7 @@ void ViewSession::describe() {
     const ShownPicture picture = pictures_.shown_picture();
     clusters_.ask(*worker_, state_, picture);
     clusters_.describe(state_, picture);
+    draw_light_outlines(*ImGui::GetBackgroundDrawList(), lights_.own().lights(), state_, picture);
     if (state_.show_panel) describe_panel(actions);
     if (state_.show_overlay) {
         describe_overlay(overlay_lines(), messages_.notice(), picture.place, picture.scale);
@@ -285,6 +305,7 @@ void ViewSession::describe_panel(Actions& actions) {
     const PanelStats stats{settings};
     settings.picture();
     settings.lights();
+    PanelLights{settings}.own_lights(steering_.rig());
     stats.speed();
     settings.clusters();
     settings.camera(steering_.rig());

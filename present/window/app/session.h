@@ -68,7 +68,7 @@ class ViewSession {
     void hold_back(Actions& actions);
     void reset_settings();
     std::string command() const;
-    void copy(const std::string& text);
+    void copy(const std::string& text, const std::string& remark = "");
 
     std::string waiting_line() const;
     void describe_picture(const ScreenPlace& at);

@@ -38,6 +38,8 @@ struct ViewState {
     bool frozen = false;     // draw the clusters of one picture as boxes
     int box_lights = 1;      // least lights of a frozen cluster that is drawn
     bool error_map = false;  // show the measured error in place of the picture
+    int light = -1;          // the selected one of the scene's own, by number; -1: none
+    bool outlines = false;   // draw those of all of the scene's own lights with a size
 
     bool operator==(const ViewState&) const = default;
 };

@@ -70,6 +70,7 @@ PictureRequest WindowPictures::wanted(double scale) const {
     out.camera = rig_.camera();
     out.time = time_;
     out.rig = lights_.rig();
+    out.own_lights = lights_.own().version();
     return out;
 }
 

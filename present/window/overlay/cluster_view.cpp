@@ -31,21 +31,7 @@ double brightness(const glm::dvec3& radiance) {
     return std::max({radiance.x, radiance.y, radiance.z});
 }
 
-glm::vec2 on_screen(const glm::dvec4& clip, const ScreenPlace& place) {
-    const glm::dvec2 ndc = glm::dvec2(clip) / clip.w;
-    return {std::lerp(place.x0, place.x1, static_cast<float>(0.5 + 0.5 * ndc.x)),
-            std::lerp(place.y1, place.y0, static_cast<float>(0.5 + 0.5 * ndc.y))};
-}
-
-glm::dvec4 to_clip(const glm::dvec3& world, const Camera& camera, const ScreenPlace& place) {
-    const glm::dmat4 clip = clip_from_view(camera, static_cast<int>(place.x1 - place.x0),
-                                           static_cast<int>(place.y1 - place.y0));
-    const glm::dvec3 view = glm::transpose(camera.world_from_view) * (world - camera.position);
-    return clip * glm::dvec4(view, 1.0);
-}
-
-void draw_lights(ImDrawList& draw, const ProbedPixel& pixel, const Camera& camera,
-                 const ScreenPlace& place) {
+void draw_lights(const ProjectedPicture& picture, const ProbedPixel& pixel) {
     const double most = pixel.shares.empty() ? 0.0 : brightness(pixel.shares.front().radiance);
     for (const LightContribution& share : pixel.shares) {
         const auto found =
@@ -54,13 +40,12 @@ void draw_lights(ImDrawList& draw, const ProbedPixel& pixel, const Camera& camer
         const float4& relative = found->light.position_range;
         const glm::dvec3 world =
             pixel.camera.position + glm::dvec3(relative.x, relative.y, relative.z);
-        const glm::dvec4 clip = to_clip(world, camera, place);
-        if (!(clip.w > 0.0)) continue;
-        const glm::vec2 at = on_screen(clip, place);
+        const std::optional<glm::vec2> at = picture.place_of(world);
+        if (!at) continue;
         const double part = most > 0.0 ? brightness(share.radiance) / most : 0.0;
         const float radius = 2.0f + 5.0f * static_cast<float>(std::sqrt(part));
         const ImU32 color = part > 0.0 ? IM_COL32(255, 190, 70, 220) : IM_COL32(160, 160, 160, 140);
-        draw.AddCircle({at.x, at.y}, radius, color, 12, 1.5f);
+        picture.draw().AddCircle({at->x, at->y}, radius, color, 12, 1.5f);
     }
 }
 
@@ -125,20 +110,12 @@ void describe_lists(const ProbedPixel& pixel, std::size_t most) {
     }
 }
 
-// The box's edges as `camera` sees them. Bits 0, 1, 2 of a corner's index: x, y, z.
-void draw_edges(ImDrawList& draw, const std::array<glm::dvec3, 8>& corners, const Camera& camera,
-                const ScreenPlace& place, ImU32 color) {
-    constexpr double kNear = 1e-4;  // of clip w, which is the depth [m]
+// The box's edges. Bits 0, 1, 2 of a corner's index: x, y, z.
+void draw_edges(const ProjectedPicture& picture, const std::array<glm::dvec3, 8>& corners,
+                ImU32 color) {
     for (std::size_t from = 0; from < 8; ++from) {
         for (const std::size_t bit : {1u, 2u, 4u}) {
-            if ((from & bit) != 0) continue;
-            glm::dvec4 a = to_clip(corners[from], camera, place);
-            glm::dvec4 b = to_clip(corners[from | bit], camera, place);
-            if (a.w < kNear && b.w < kNear) continue;
-            if (a.w < kNear) a = glm::mix(a, b, (kNear - a.w) / (b.w - a.w));
-            if (b.w < kNear) b = glm::mix(b, a, (kNear - b.w) / (a.w - b.w));
-            const glm::vec2 from_at = on_screen(a, place), to_at = on_screen(b, place);
-            draw.AddLine({from_at.x, from_at.y}, {to_at.x, to_at.y}, color, 1.5f);
+            if ((from & bit) == 0) picture.line(corners[from], corners[from | bit], {color});
         }
     }
 }
@@ -176,13 +153,10 @@ std::array<glm::dvec3, 8> coarse_corners(const ProbedPixel& pixel) {
 void draw_probe(ImDrawList& draw, const ProbedPixel& pixel, const Camera& camera,
                 const ScreenPlace& place) {
     if (!pixel.probe.has_surface()) return;
-    draw.PushClipRect({place.x0, place.y0}, {place.x1, place.y1});
-    if (pixel.probe.has_list) {
-        draw_edges(draw, coarse_corners(pixel), camera, place, kCoarseColor);
-    }
-    if (pixel.probe.active) draw_edges(draw, active_corners(pixel), camera, place, kActiveColor);
-    draw_lights(draw, pixel, camera, place);
-    draw.PopClipRect();
+    const ProjectedPicture picture(draw, camera, place);
+    if (pixel.probe.has_list) draw_edges(picture, coarse_corners(pixel), kCoarseColor);
+    if (pixel.probe.active) draw_edges(picture, active_corners(pixel), kActiveColor);
+    draw_lights(picture, pixel);
 }
 
 std::string pixel_line(const ProbedPixel& pixel) {

@@ -6,6 +6,7 @@
 
 #include "host/measure/reference/light_contributions.h"
 #include "host/scene/camera.h"
+#include "present/window/overlay/projected_picture.h"
 #include "raster/box_pass.h"
 
 struct ImDrawList;
@@ -25,11 +26,6 @@ struct ProbedPixel {
 struct FrozenClusters {
     Camera camera;
     std::vector<ActiveCluster> clusters;  // in its view space
-};
-
-/// A picture's place in the window, window coordinates.
-struct ScreenPlace {
-    float x0 = 0.0f, y0 = 0.0f, x1 = 0.0f, y1 = 0.0f;
 };
 
 /// Draws the pixel's active and coarse cluster over the picture of `camera`, and its lights as

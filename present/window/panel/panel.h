@@ -8,6 +8,7 @@
 #include "host/measure/roofline/stage_report.h"
 #include "host/render/plan/scene_plan.h"
 #include "host/scene/scene.h"
+#include "present/window/app/own_lights.h"
 #include "present/window/app/view_state.h"
 #include "present/window/overlay/error_measurement.h"
 #include "present/window/panel/stage_history.h"
@@ -18,7 +19,7 @@ namespace kilolux {
 /// Facts about the last picture that the panel shows.
 struct PanelFacts {
     const Scene& scene;  // but its lights, which the worker replaces
-    bool has_unranged_lights = false;
+    const OwnLights& own_lights;
     std::size_t triangles = 0;
     std::string opengl{};  // the window's renderer
     DeviceInfo device{};
@@ -54,6 +55,9 @@ struct Actions {
     bool dismiss_failure = false;
     bool measure_error = false;
     bool close = false;
+    std::optional<NumberedLight> change_light;  // of the scene's own
+    std::optional<std::size_t> reset_light;
+    bool reset_lights = false;
 
     bool operator==(const Actions&) const = default;
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "host/picture/views.h"
+#include "host/render/plan/settings_check.h"
 #include "host/scene/lights/light_generator.h"
 #include "present/cli/names.h"
 #include "present/window/panel/panel_stats.h"
@@ -26,14 +27,31 @@ void automatic_slider(Widgets& ui, const char* label, double& value, double auto
     if (ui.checkbox("auto", is_automatic, label)) value = is_automatic ? 0.0 : automatic;
 }
 
+// Why each choice is refused beside lights with a size, if there are some.
+template <typename Choice, typename Problem>
+std::vector<std::string> refusals(bool has_area_lights, const Problem& problem) {
+    std::vector<std::string> out(names_of<Choice>().size());
+    for (std::size_t i = 0; has_area_lights && i < out.size(); ++i) {
+        out[i] = problem(static_cast<Choice>(i));
+    }
+    return out;
+}
+
 }  // namespace
 
 void PanelSettings::picture() const {
     if (!ui.section("Picture", true)) return;
     RenderSettings& s = state.settings;
     ui.choice("Renderer", s.renderer, names_of<RendererKind>());
-    ui.choice("Shading", s.shading, names_of<Shading>());
-    ui.choice("Shadows", s.shadows, names_of<Shadows>());
+    const bool has_area = has_area_lights(facts.own_lights.lights(), s.lights);
+    ui.choice("Shading", s.shading, names_of<Shading>(),
+              refusals<Shading>(has_area, [](auto shading) {
+                  return area_lights_problem(model_of(shading), Shadows::off);
+              }));
+    ui.choice("Shadows", s.shadows, names_of<Shadows>(),
+              refusals<Shadows>(has_area, [](auto shadows) {
+                  return area_lights_problem(SHADING_PBR, shadows);
+              }));
     ui.choice("G-buffer", s.gbuffer, gbuffer_choices().names);
     ui.choice("Show", s.want.view, view_names());
     ui.slider("Exposure", s.exposure, {-8.0, 8.0, false, "%+.1f EV"});
@@ -55,7 +73,8 @@ void PanelSettings::lights() const {
     automatic_slider(ui, "Radius", lights.radius, scale.radius, {0.05, 100.0, true, "%.2f m"});
     automatic_slider(ui, "Intensity", lights.intensity, scale.intensity,
                      {1e-4, 1e4, true, "%.3g cd"});
-    if (facts.has_unranged_lights) {
+    size();
+    if (facts.own_lights.has_unranged()) {
         ui.choice("Tails", state.settings.tails, names_of<Tails>());
         ui.tip("Where the file's lights without a range end");
         if (state.settings.tails == Tails::tree) {
@@ -65,6 +84,15 @@ void PanelSettings::lights() const {
     ui.checkbox("Lights move", state.lights_move);
     ui.slider("Speed", state.light_speed, {0.05, 20.0, true, "%.2fx"});
     ui.slider("Seed", lights.seed, {1, 100, false, "%.0f"});
+}
+
+void PanelSettings::size() const {
+    RenderSettings& s = state.settings;
+    const bool has_area = has_area_lights(facts.own_lights.lights(), s.lights);
+    ui.begin_refusal(has_area ? "" : area_lights_problem(model_of(s.shading), s.shadows));
+    ui.slider("Size", s.lights.size, {0.0, 10.0, true, s.lights.size > 0.0 ? "%.3f m" : "points"});
+    ui.tip("Radius of the generated lights, and of the file's points that give none: spheres");
+    ui.end_refusal();
 }
 
 void PanelSettings::clusters() const {

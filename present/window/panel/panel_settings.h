@@ -12,6 +12,9 @@ struct PanelSettings : Panel {
     void clusters() const;
     void camera(const CameraRig& rig) const;
     void window() const;
+
+ private:
+    void size() const;
 };
 
 }  // namespace kilolux

@@ -23,7 +23,9 @@ ImGuiSliderFlags flags_of(const SliderRange& range) {
 double WidgetPlace::x_of(double value) const {
     const auto [low, high, logarithmic, format] = slider.value();
     double t = (value - low) / (high - low);
-    if (logarithmic) t = std::log(std::max(value, low) / low) / std::log(high / low);
+    // Dear ImGui gives a logarithmic slider from 0 as many decades as its format has digits: three.
+    const double least = low > 0.0 ? low : 1e-3;
+    if (logarithmic) t = std::log(std::max(value, least) / least) / std::log(high / least);
     const double margin = 2.0 + 0.5 * static_cast<double>(ImGui::GetStyle().GrabMinSize);
     return x0 + margin + std::clamp(t, 0.0, 1.0) * (static_cast<double>(x1 - x0) - 2.0 * margin);
 }
@@ -34,8 +36,9 @@ void Widgets::end_frame() { places_.swap(coming_); }
 WidgetPlace& Widgets::note(const std::string& name) {
     const ImVec2 low = ImGui::GetItemRectMin();
     const ImVec2 high = ImGui::GetItemRectMax();
-    WidgetPlace& place = coming_[lower(name)];
+    WidgetPlace& place = coming_[lower(group_ + name)];
     place = {};
+    place.refusal = refusal_;
     place.x0 = low.x;
     place.y0 = low.y;
     place.x1 = high.x;
@@ -55,6 +58,35 @@ void Widgets::label(const char* text, const char* beside) const {
     ImGui::SetNextItemWidth(-room);
 }
 
+void Widgets::begin_group(const char* group) {
+    ImGui::PushID(group);
+    group_ = std::string(group) + " ";
+}
+
+void Widgets::end_group() {
+    group_.clear();
+    ImGui::PopID();
+}
+
+// The reason up to its advice, which the mouse shows.
+void Widgets::describe_refusal(const std::string& reason) const {
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextDisabled("%s", reason.substr(0, reason.find(';')).c_str());
+    ImGui::PopTextWrapPos();
+    tip(reason.c_str());
+}
+
+void Widgets::begin_refusal(const std::string& reason) {
+    refusal_ = reason;
+    ImGui::BeginDisabled(!reason.empty());
+}
+
+void Widgets::end_refusal() {
+    ImGui::EndDisabled();
+    if (!refusal_.empty()) describe_refusal(refusal_);
+    refusal_.clear();
+}
+
 bool Widgets::section(const char* label, bool open_at_first) {
     ImGui::Dummy({0.0f, 1.0f});
     const bool open = ImGui::CollapsingHeader(
@@ -72,8 +104,10 @@ bool Widgets::checkbox(const char* text, bool& value, const char* owner) {
     return changed;
 }
 
-bool Widgets::button(const char* text, bool wide) {
+bool Widgets::button(const char* text, bool wide, bool enabled) {
+    ImGui::BeginDisabled(!enabled);
     const bool clicked = ImGui::Button(text, {wide ? -FLT_MIN : 0.0f, 0.0f});
+    ImGui::EndDisabled();
     note(text);
     return clicked;
 }
@@ -87,24 +121,50 @@ bool Widgets::slide(const char* text, double& value, const SliderRange& range, c
     return changed;
 }
 
-bool Widgets::choose(const char* text, std::size_t& value, const std::vector<std::string>& names) {
+bool Widgets::drag_number(const char* text, double& value, const DragRange& range,
+                          const char* beside) {
+    label(text, beside);
+    double next = value;
+    const bool changed = ImGui::DragScalar(hidden(text).c_str(), ImGuiDataType_Double, &next,
+                                           static_cast<float>(range.step), &range.low, &range.high,
+                                           range.format, ImGuiSliderFlags_AlwaysClamp);
+    note(text).slider = {range.low, range.high, false, range.format};
+    if (!changed || !(next >= range.low && next <= range.high)) return false;  // NaN: keeps it
+    value = next;
+    return true;
+}
+
+bool Widgets::color(const char* text, glm::vec3& value) {
+    label(text);
+    const bool changed =
+        ImGui::ColorEdit3(hidden(text).c_str(), &value.x, ImGuiColorEditFlags_Float);
+    note(text);
+    return changed;
+}
+
+bool Widgets::choose(const char* text, std::size_t& value, const std::vector<std::string>& names,
+                     const std::vector<std::string>& refusals) {
     label(text);
     const std::size_t chosen = value;
     const bool open = ImGui::BeginCombo(hidden(text).c_str(), names.at(chosen).c_str(),
                                         ImGuiComboFlags_HeightLargest);
-    if (!open) {
-        note(text);
-        return false;
-    }
     bool changed = false;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        const bool clicked = ImGui::Selectable(names[i].c_str(), i == chosen);
-        note(std::string(text) + " " + names[i]).visible = true;
+    if (!open) note(text);
+    for (std::size_t i = 0; open && i < names.size(); ++i) {
+        const std::string refusal = i < refusals.size() ? refusals[i] : "";
+        const bool clicked = ImGui::Selectable(names[i].c_str(), i == chosen,
+                                               refusal.empty() ? 0 : ImGuiSelectableFlags_Disabled);
+        WidgetPlace& place = note(std::string(text) + " " + names[i]);
+        place.visible = true;
+        place.refusal = refusal;
         if (!clicked) continue;
         value = i;
         changed = i != chosen;
     }
-    ImGui::EndCombo();
+    if (open) ImGui::EndCombo();
+    for (const std::string& refusal : refusals) {
+        if (!refusal.empty()) describe_refusal(refusal);
+    }
     return changed;
 }
 

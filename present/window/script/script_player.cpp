@@ -256,6 +256,9 @@ const WidgetPlace& ScriptPlayer::place_of(const std::string& widget) const {
 // Scrolls the panel until the widget is in sight.
 bool ScriptPlayer::reach(const std::string& widget) {
     const WidgetPlace* place = stage_.ui.find(widget);
+    if (place != nullptr && !place->refusal.empty()) {
+        throw Error(fmt::format("{}: '{}' is disabled: {}", place_, widget, place->refusal));
+    }
     if (place != nullptr && place->visible) return true;
     if (++tries_ > kMaxTries) {
         const WidgetPlace& found = place_of(widget);

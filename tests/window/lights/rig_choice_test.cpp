@@ -10,28 +10,12 @@
 namespace kilolux {
 namespace {
 
-constexpr int kWidth = 700, kHeight = 420;  // [pixel] of the window
-
-// The picture that the command line renders with these options, in the window's part for the scene.
-ScenePart rendered(const fs::path& file, std::vector<std::string> options,
-                   const std::string& scene = "plain") {
-    std::vector<std::string> words = {"render",  scene, "-q",         "--resolution",
-                                      "340,420", "-o",  file.string()};
-    words.insert(words.end(), options.begin(), options.end());
-    const ChildResult result = run_kilolux(words);
-    EXPECT_EQ(result.code, 0) << result.err;
-    ScenePart out = scene_part(file, 0);
-    out.width += kPanel;
-    return out;
-}
-
 std::vector<std::string> words_of(const Script& script) {
     return {"view",      "plain", "-q",       "--resolution", "700,420",
             "--samples", "1",     "--script", script.write()};
 }
 
 TEST(WindowRig, ShowsThePictureOfEveryRig) {
-    static_assert(kWidth - kPanel == 340 && kHeight == 420);
     const TemporaryFolder folder;
     Script script(folder);
     script.shot("start");

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "host/scene/animated_scene.h"
+#include "host/scene/camera.h"
+
+namespace kilolux {
+
+/// The scene's own lights with the user's changes. It is a copy: the scene's lights are the
+/// worker's, which begin_sending() has follow.
+class OwnLights {
+ public:
+    /// `point_size`: the radius that the points of `lights` without one have got [m].
+    OwnLights(std::vector<SceneLight> lights, double point_size);
+
+    const std::vector<SceneLight>& lights() const { return lights_; }
+    std::size_t count(LightType type) const { return counts_[static_cast<std::size_t>(type)]; }
+    bool has_unranged() const { return has_unranged_; }
+
+    bool is_changed(std::size_t light) const { return originals_.contains(light); }
+    std::size_t changed_count() const { return originals_.size(); }
+
+    /// Changes a light. Returns false, and keeps what it was, where the renderer could not use the
+    /// numbers: not finite, no size, an impossible cone.
+    bool change(std::size_t light, SceneLight next);
+    /// Restores a light, or all, as loaded.
+    void reset(std::size_t light);
+    void reset();
+    /// Gives the points without a radius of their own this one [m], 0: none.
+    void set_point_size(double radius);
+    double point_size() const { return point_size_; }
+
+    /// Whether the scene lacks changes; these, for AnimatedScene::exchange_lights(). Call
+    /// end_sending() before the next ones: if it refused them, the lights are what they were.
+    bool has_news() const { return !before_.empty(); }
+    std::vector<NumberedLight> begin_sending();
+    void end_sending(bool accepted);
+    /// How often the scene has taken changes.
+    std::uint32_t version() const { return version_; }
+
+ private:
+    using Lights = std::map<std::size_t, SceneLight>;  // by number
+
+    void put(std::size_t light, const SceneLight& next);
+    void count_kinds();
+
+    std::vector<SceneLight> lights_;
+    Lights originals_;             // of changed lights
+    Lights before_, sent_before_;  // what the scene has of lights to be sent, and of sent ones
+    double point_size_, sent_point_size_, scene_point_size_;  // [m]
+    std::uint32_t version_ = 0;
+    std::vector<std::size_t> counts_;  // by LightType
+    bool has_unranged_ = false;
+};
+
+/// The number of the light that the camera sees nearest to the middle of its picture, else of the
+/// nearest one; -1: there is none with a position.
+int light_in_view(std::span<const SceneLight> lights, const Camera& camera);
+
+}  // namespace kilolux

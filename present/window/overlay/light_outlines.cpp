@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/window/overlay/light_outlines.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <glm/gtc/constants.hpp>
+
+#include "host/scene/lights/light_kinds.h"
+#include "host/scene/lights/light_shape.h"
+#include "host/scene/lights/light_side.h"
+
+namespace kilolux {
+namespace {
+
+constexpr int kRoundSteps = 48;  // lines of an ellipse or a circle
+constexpr LineLook kSelectedLook{IM_COL32(255, 190, 70, 255), 2.0f};
+constexpr LineLook kLook{IM_COL32(90, 200, 255, 190), 1.25f};
+constexpr LineLook kShadow{IM_COL32(0, 0, 0, 130), 4.0f};  // below, so that white shows them, too
+constexpr float kMarkRadius = 7.0f;  // of lights without a size, for a font of 15 pixels
+
+std::vector<glm::dvec3> ellipse(const glm::dvec3& center, const LightEdges& axes) {
+    std::vector<glm::dvec3> out;
+    for (int i = 0; i < kRoundSteps; ++i) {
+        const double angle = glm::two_pi<double>() * i / kRoundSteps;
+        out.push_back(center + std::cos(angle) * axes.x + std::sin(angle) * axes.y);
+    }
+    return out;
+}
+
+// The circle in which the cone from the camera touches the sphere.
+std::vector<glm::dvec3> silhouette(const SceneLight& light, const Camera& camera) {
+    const glm::dvec3 to_eye = camera.orthographic ? glm::dvec3(camera.world_from_view[2])
+                                                  : camera.position - light.position;
+    const double distance = glm::length(to_eye), radius = light.radius;
+    if (!camera.orthographic && !(distance > radius)) return {};
+    const double share = camera.orthographic ? 0.0 : radius / distance;  // sine of its half angle
+    const glm::dvec3 axis = to_eye / distance;
+    const glm::dvec3 side = perpendicular_side(axis, glm::dvec3(camera.world_from_view[0]));
+    const double across = radius * std::sqrt(1.0 - share * share);
+    return ellipse(light.position + radius * share * axis,
+                   {across * side, across * glm::cross(axis, side)});
+}
+
+void draw_closed(const ProjectedPicture& picture, const std::vector<glm::dvec3>& points,
+                 const LineLook& look) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        picture.line(points[i], points[(i + 1) % points.size()], look);
+    }
+}
+
+// The selected light: its outline, or a circle, and a line the way that it shines.
+void draw_selected(const ProjectedPicture& picture, const SceneLight& light, float scale) {
+    const LightKind& kind = kind_of(light);
+    if (!kind.is_placed) return;
+    const std::vector<glm::dvec3> outline = outline_of(light, picture.camera());
+    const double reach = is_area_light(light)
+                             ? bounding_radius(light)
+                             : 0.05 * glm::length(light.position - picture.camera().position);
+    const std::optional<glm::vec2> at = picture.place_of(light.position);
+    for (const LineLook& look : {kShadow, kSelectedLook}) {
+        draw_closed(picture, outline, look);
+        if (kind.is_aimed) {
+            picture.line(light.position, light.position + reach * light.direction, look);
+        }
+        if (at && !is_area_light(light)) {
+            picture.draw().AddCircle({at->x, at->y}, kMarkRadius * scale, look.color, 24,
+                                     look.width);
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<glm::dvec3> outline_of(const SceneLight& light, const Camera& camera) {
+    const auto [x, y] = edges_of(light);
+    const glm::dvec3& p = light.position;
+    switch (kind_of(light).shape) {
+        case SHAPE_RECTANGLE:
+            return {p - x - y, p + x - y, p + x + y, p - x + y};
+        case SHAPE_DISK:
+            return ellipse(p, {x, y});
+        case SHAPE_SPHERE:
+            return silhouette(light, camera);
+        case SHAPE_TRIANGLE: {
+            const glm::dvec3 first = p - (x + y) / 3.0;
+            return {first, first + x, first + y};
+        }
+        default:
+            return {};
+    }
+}
+
+std::vector<std::size_t> nearest_area_lights(std::span<const SceneLight> lights,
+                                             const Camera& camera, std::size_t most) {
+    std::vector<std::size_t> out;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        if (is_area_light(lights[i])) out.push_back(i);
+    }
+    if (out.size() <= most) return out;
+    const auto distance = [&](std::size_t i) {
+        return glm::length(lights[i].position - camera.position);
+    };
+    std::ranges::nth_element(out, out.begin() + static_cast<std::ptrdiff_t>(most), {}, distance);
+    out.resize(most);
+    return out;
+}
+
+void draw_light_outlines(ImDrawList& draw, std::span<const SceneLight> lights,
+                         const ViewState& state, const ShownPicture& shown) {
+    const bool has_selected = state.light >= 0 && std::cmp_less(state.light, lights.size());
+    if (!shown.displayed || (!has_selected && !state.outlines)) return;
+    const ProjectedPicture picture(draw, shown.displayed->camera, shown.place);
+    if (state.outlines) {
+        for (const std::size_t i : nearest_area_lights(lights, picture.camera(), kMostOutlines)) {
+            draw_closed(picture, outline_of(lights[i], picture.camera()), kLook);
+        }
+    }
+    if (has_selected) {
+        draw_selected(picture, lights[static_cast<std::size_t>(state.light)], shown.scale);
+    }
+}
+
+}  // namespace kilolux

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene's own lights in the window: the panel selects and changes them, under Xvfb.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/lit_hall.h"
+#include "tests/window/scripted_window.h"
+
+namespace kilolux {
+namespace {
+
+enum Number { kRectangle, kDisk, kSphere, kPoint };  // of the room's lights
+
+SceneLight light_at(LightType type, const glm::dvec3& position) {
+    SceneLight light;
+    light.type = type;
+    light.position = position;
+    light.direction = {0.0, -1.0, 0.0};
+    light.intensity = glm::vec3(1.5f);
+    light.width = 1.0f;
+    light.height = 0.5f;
+    light.radius = 0.25f;
+    light.range = 6.0f;
+    return light;
+}
+
+// A room, seen along -Z, with a light of each kind that files have.
+Scene lit_room(bool with_area_lights = true) {
+    Scene scene = box_scene({6.0, 3.0, 6.0}, true);
+    if (with_area_lights) {
+        scene.lights = {light_at(LightType::rectangle, {-1.5, 1.0, -1.0}),
+                        light_at(LightType::disk, {1.5, 1.0, -1.0}),
+                        light_at(LightType::sphere, {0.0, -0.5, -1.5})};
+        scene.lights[kRectangle].width = 1.5f;  // the file holds its width / height
+    }
+    scene.lights.push_back(light_at(LightType::point, {0.0, 0.8, 1.0}));
+    SceneCamera camera;
+    camera.world_from_camera[3] = {0.0, 0.0, 2.8, 1.0};
+    camera.y_fov = 1.2;
+    scene.cameras.push_back(camera);
+    return scene;
+}
+
+class LightsOfTheWindow : public testing::Test {
+ protected:
+    ChildResult view(const Script& script, const std::vector<std::string>& more = {}) const {
+        std::vector<std::string> words = {
+            "view",  room_.string(), "--fresh",   "-q", "--resolution", "700,420",
+            "--rig", "none",         "--samples", "1",  "--script"};
+        words.push_back(script.write());
+        words.insert(words.end(), more.begin(), more.end());
+        return view_in_display({"--chdir=" + folder_.path().string()}, words);
+    }
+    void play_with(const Script& script, const std::vector<std::string>& more = {}) const {
+        const ChildResult result = view(script, more);
+        ASSERT_EQ(result.code, 0) << result.err << result.out;
+        EXPECT_EQ(result.err, "");
+    }
+    // The screenshot shows what the command line renders of the room with the change.
+    void expect(const std::string& name, const std::function<void(Scene&)>& change,
+                const std::vector<std::string>& more = {}) const {
+        Scene scene = lit_room();
+        change(scene);
+        const fs::path file = folder_ / "changed" / "room.gltf";
+        fs::create_directories(file.parent_path());
+        write_scene(scene, file);
+        std::vector<std::string> options = {"--rig", "none"};
+        options.insert(options.end(), more.begin(), more.end());
+        EXPECT_EQ(scene_part(folder_ / (name + ".png")).values,
+                  rendered(folder_ / "rendered.png", options, file.string()).values)
+            << name;
+    }
+    double difference(const char* a, const char* b) const {
+        return mean_difference(scene_part(folder_ / (std::string(a) + ".png")),
+                               scene_part(folder_ / (std::string(b) + ".png")));
+    }
+
+    TemporaryFolder folder_;
+    fs::path room_ = [this] {
+        fs::path file = folder_ / "room.gltf";
+        write_scene(lit_room(), file);
+        return file;
+    }();
+};
+
+// What the panel changes is what a file with that number shows.
+TEST_F(LightsOfTheWindow, ShowTheirChanges) {
+    Script script(folder_);
+    const auto shot = [&](const std::string& name) {
+        script.line("type light number -1").line("away").shot(name);
+    };
+    script.line("open scene lights");
+    shot("start");
+    script.line("type light number 0").line("type light width 0.75");
+    script.line("type light y 0.5").line("click light two-sided");
+    shot("rectangle");
+    script.line("type light number 1").line("type light height 1.25");
+    script.line("type light intensity 3").line("click light range none");
+    shot("disk");
+    script.line("type light number 1").line("click light next").line("type light radius 0.125");
+    shot("sphere");
+    script.line("type light number 1").line("click light reset");
+    shot("reset");
+    script.line("click light reset all");
+    shot("all");
+    play_with(script);
+    expect("start", [](Scene&) {});
+    const auto rectangle = [](Scene& scene) {
+        scene.lights[kRectangle].width = 0.75f;
+        scene.lights[kRectangle].position.y = 0.5;
+        scene.lights[kRectangle].two_sided = true;
+    };
+    expect("rectangle", rectangle);
+    const auto disk = [&](Scene& scene) {
+        rectangle(scene);
+        scene.lights[kDisk].height = 1.25f;
+        scene.lights[kDisk].intensity = glm::vec3(3.0f);
+        scene.lights[kDisk].range = 0.0f;
+    };
+    expect("disk", disk);
+    const auto sphere = [&](Scene& scene) { scene.lights[kSphere].radius = 0.125f; };
+    expect("reset", [&](Scene& scene) { rectangle(scene), sphere(scene); });
+    EXPECT_GT(difference("start", "rectangle"), 1e-3);
+    EXPECT_GT(difference("rectangle", "disk"), 1e-3);
+    EXPECT_GT(difference("disk", "sphere"), 1e-6);
+    EXPECT_EQ(difference("start", "all"), 0.0);
+}
+
+// Generated lights, and the file's points, are those of --light-size.
+TEST_F(LightsOfTheWindow, GetASize) {
+    write_scene(lit_room(false), room_);
+    const std::string config = "XDG_CONFIG_HOME=" + folder_.path().string();
+    const auto play_kept = [&](const Script& script) {
+        const ChildResult result = view_in_display(
+            {config}, {"view", room_.string(), "-q", "--resolution", "700,420", "--rig", "none",
+                       "--lights", "20", "--samples", "1", "--script", script.write()});
+        ASSERT_EQ(result.code, 0) << result.err;
+        EXPECT_EQ(result.err, "");
+        return;
+    };
+    Script first(folder_);
+    first.shot("points").line("slide size 0.2").line("away").shot("spheres");
+    play_kept(first);
+    const auto kept = nlohmann::json::parse(text_of_file(folder_ / "kilolux" / "view.json"));
+    EXPECT_EQ(kept.at("light-size"), 0.2);
+    Script again(folder_);
+    again.shot("kept").line("slide size 0").line("away").shot("back");
+    play_kept(again);
+    const auto expect_lights = [&](const std::string& name, const std::string& size) {
+        EXPECT_EQ(
+            scene_part(folder_ / (name + ".png")).values,
+            rendered(folder_ / "rendered.png",
+                     {"--rig", "none", "--lights", "20", "--light-size", size}, room_.string())
+                .values)
+            << name;
+    };
+    expect_lights("points", "0");
+    expect_lights("spheres", "0.2");
+    expect_lights("kept", "0.2");
+    expect_lights("back", "0");
+    EXPECT_GT(difference("points", "spheres"), 1e-5);
+}
+
+// The panel refuses beforehand what the renderer would.
+TEST_F(LightsOfTheWindow, RefuseWhatHasNoLightOfThem) {
+    const auto refusal = [&](const std::string& step, const std::vector<std::string>& more = {}) {
+        Script script(folder_);
+        script.line("settle").line(step);
+        const ChildResult result = view(script, more);
+        EXPECT_EQ(result.code, 1) << step;
+        EXPECT_NE(result.err.find("script:2"), std::string::npos) << result.err;
+        return result.err;
+    };
+    EXPECT_NE(refusal("choose shading blinn-phong").find("disabled: shading blinn-phong"),
+              std::string::npos);
+    EXPECT_NE(refusal("choose shadows exact").find("disabled: shadows exact"), std::string::npos);
+    write_scene(lit_room(false), room_);
+    EXPECT_NE(refusal("slide size 0.1", {"--shadows", "exact"}).find("disabled: shadows exact"),
+              std::string::npos);
+    Script script(folder_);
+    script.line("choose shading blinn-phong").line("settle").line("choose shading pbr");
+    script.line("slide size 0.1").line("settle");
+    play_with(script);
+}
+
+// Values that are kept from other scenes do not hinder the window.
+TEST_F(LightsOfTheWindow, KeptSettingsThatExcludeThemWait) {
+    const auto opens = [&](const std::string& kept, const std::vector<std::string>& more) {
+        fs::create_directories(folder_ / "kilolux");
+        write_text(folder_ / "kilolux" / "view.json", R"({"version": 2, )" + kept + "}");
+        std::vector<std::string> words = {"view",  room_.string(), "--resolution", "700,420",
+                                          "--rig", "none",         "--exit-after", "1"};
+        words.insert(words.end(), more.begin(), more.end());
+        const ChildResult result =
+            view_in_display({"XDG_CONFIG_HOME=" + folder_.path().string()}, words);
+        EXPECT_EQ(result.code, 0) << result.err;
+        EXPECT_NE(result.err.find("not the kept value"), std::string::npos) << result.err;
+    };
+    opens(R"("shadows": "exact")", {});
+    opens(R"("shading": "blinn-phong")", {});
+    EXPECT_EQ(nlohmann::json::parse(text_of_file(folder_ / "kilolux" / "view.json")).at("shading"),
+              "blinn-phong")
+        << "for other scenes";
+    write_scene(lit_room(false), room_);
+    opens(R"("light-size": 0.1)", {"--lights", "10", "--shadows", "exact"});
+}
+
+TEST_F(LightsOfTheWindow, HaveOutlines) {
+    Script script(folder_);
+    script.shot("none").line("open scene lights").line("click light outlines").line("away");
+    script.shot("all").line("click light outlines").line("type light number 2").line("away");
+    script.shot("selected").line("click light none").line("away").shot("again");
+    play_with(script);
+    const auto changed = [&](const char* name) {
+        const ScenePart a = scene_part(folder_ / "none.png");
+        const ScenePart b = scene_part(folder_ / (std::string(name) + ".png"));
+        int count = 0;
+        for (std::size_t i = 0; i < a.values.size(); i += 3) count += a.values[i] != b.values[i];
+        return count;
+    };
+    EXPECT_EQ(changed("again"), 0);
+    EXPECT_GT(changed("selected"), 150) << "a circle of about 60 pixels across";
+    EXPECT_LT(changed("selected"), 2000);
+    EXPECT_GT(changed("all"), changed("selected"));
+}
+
+}  // namespace
+}  // namespace kilolux
