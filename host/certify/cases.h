@@ -40,6 +40,8 @@ TryCase try_shadow_edges;
 TryCase try_tails;
 // cases/profiles.cpp
 TryCase try_light_profiles;
+// cases/areas.cpp
+TryCase try_area_lights;
 // cases/metamorphic.cpp
 TryCase try_other_grids, try_idle_lights, try_scaled_intensities, try_scaled_world, try_mirror,
     try_split_light, try_permuted_lights, try_lane_widths;

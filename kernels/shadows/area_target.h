@@ -120,6 +120,17 @@ static inline SeenShape seen_by_lobe(AreaLight light, AreaOrigins from) {
                      lanes3(light.shape.half_y), from.normal);
 }
 
+#if AREA_LOBES > 1u
+// Where rays to `target` meet a light that is a sphere: what it encloses, as a bulb, hides nothing
+// of it. `target` is on the disk that the glossy lobe takes for the sphere.
+static inline FV3 front_of_sphere(AreaLight light, AreaOrigins from, FV3 target) {
+    SeenShape sphere;
+    sphere.center = sub3(lanes3((float4)(light.center, 0.0f)), from.position);
+    sphere.half_x = lanes3(light.shape.half_x);
+    return sphere_point(&sphere, unit_direction(target));
+}
+#endif
+
 // The vectors from the origins to the targets of the light's slot, view space [m]; where not
 // `wanted` they are undefined.
 static inline FV3 area_targets(AreaLight light, AreaOrigins from, MASK wanted) {
@@ -133,7 +144,10 @@ static inline FV3 area_targets(AreaLight light, AreaOrigins from, MASK wanted) {
         left &= lane_mask(s.share <= lane_random_of(random.w));
     }
 #if AREA_LOBES > 1u
-    if (light.lobe != 0u) out = from_gloss(from, out);
+    if (light.lobe != 0u) {
+        out = from_gloss(from, out);
+        if (shape_kind(light.shape) == SHAPE_SPHERE) out = front_of_sphere(light, from, out);
+    }
 #endif
     return out;
 }

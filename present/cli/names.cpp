@@ -89,8 +89,8 @@ const Choices& choices_of(ToneCurve) {
 const Choices& choices_of(Rig) {
     static const Choices choices = {
         {"auto",
-         "swarm for generated scenes and interiors and where lights are asked for, none "
-         "for other files with lights, else studio; bench and report: swarm"},
+         "swarm where lights are asked for, none for scenes with lights, swarm for other "
+         "generated ones and interiors, else studio; bench and report: swarm"},
         {"none", "only the file's own lights"},
         {"swarm", "moving coloured point lights, as many as --lights says"},
         {"studio", "key, fill and rim light in a soft surround"},

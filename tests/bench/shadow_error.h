@@ -10,8 +10,9 @@
 
 namespace kilolux {
 
-/// The error of sampled shadows with so many rays, against exact ones by the same renderer: over
-/// the pixels with a surface, of pictures that differ in their seed.
+/// The error of sampled shadows with so many rays, against exact ones by the same renderer, or
+/// where lights have a size the mean of many pictures: over the pixels with a surface, of pictures
+/// that differ in their seed.
 struct SampledShadowError {
     int rays = 0;
     int seeds = 0;  // pictures
@@ -34,15 +35,12 @@ struct SampledShadowError {
 /// estimate +- 1.96 of its root, cover 93 % or more.
 inline constexpr double kEnoughDraws = 25.0;
 
-/// Whether the exact value lies within the 95 % interval about an estimate. Without a variance it
-/// must equal the estimate.
-bool is_within(double estimate, double variance, double exact);
-
 /// The extent of the measurement.
 struct ShadowErrorPlan {
     std::vector<int> rays = {1, 2, 4, 8, 16, 64};
-    int draws = 1024;  // seeds times rays at least
-    int seeds = 16;    // at least
+    int draws = 1024;                             // seeds times rays at least
+    int seeds = 16;                               // at least
+    MeanPlan truth{.rays = 64, .pictures = 128};  // with lights that have a size
 };
 
 /// Measures one sample a pixel of `settings`, with sampled shadows. `on_step` is called before

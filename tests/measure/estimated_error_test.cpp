@@ -45,6 +45,45 @@ TEST(ErrorEstimate, IsComparedAsMediansAndRootMeanSquares) {
                  std::exception);
 }
 
+TEST(ErrorEstimate, HoldsTheMeanInAShareOfTheNoisyPixels) {
+    RgbImage picture = make_rgb_image(4, 1);
+    picture.rgb = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+    MeanPicture mean{{1.3, 1.3, 1.3, 1.3, 1.3, 1.3, 1.3, 1.3, 1.3, 1.3, 1.3, 1.3}, {0, 0, 0, 0.02}};
+    const Layer standard{"error-standard", {"error.standard"}, {0.0f, 0.2f, 0.1f, 0.1f}};
+    EXPECT_DOUBLE_EQ(share_within(standard, picture, mean), 2.0 / 3.0)
+        << "the first has no noise, the last that of the mean, too";
+    mean.variance.pop_back();
+    EXPECT_THROW(share_within(standard, picture, mean), std::exception);
+}
+
+// Rows as of a report: errors that fall as the root of the rays.
+TEST(ErrorEstimate, IsPlottedOverTheRays) {
+    std::vector<ReportRow> rows(3);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i].setting.settings.shadows = Shadows::sampled;
+        rows[i].setting.settings.shadow_rays = 4 << (2 * i);
+        rows[i].surfaces.hdr.rmse = 0.5 + static_cast<double>(i);
+        rows[i].estimate = {EstimateKind::standard, 0.25, 0.125, 0.9};
+    }
+    const auto over_rays = [&] {
+        std::vector<Plot> found;
+        for (const NamedPlot& plot : report_plots(rows, "here")) {
+            if (plot.stem == "error_over_rays") found.push_back(plot.plot);
+        }
+        return found;
+    };
+    ASSERT_EQ(over_rays().size(), 1u);
+    const Plot plot = over_rays().front();
+    ASSERT_EQ(plot.series.size(), 4u);
+    EXPECT_EQ(plot.series[0].points[1].x, 16.0);
+    EXPECT_EQ(plot.series[0].points[1].y, 1.5);
+    EXPECT_EQ(plot.series[1].points[1].y, 0.125);
+    EXPECT_EQ(plot.series[2].points[1].y, 0.25);
+    EXPECT_EQ(plot.series[3].points[2].y, 0.0625) << "a quarter with sixteen times the rays";
+    rows.pop_back();
+    EXPECT_TRUE(over_rays().empty()) << "two points are no curve";
+}
+
 TEST(ErrorEstimate, IsThatOfTheWayWithLights) {
     const Scene unranged = scene_without_ranges();
     const Scene ranged = make_generated_scene("grid");

@@ -61,9 +61,14 @@ TEST(ReportColumns, ReadBackWhatTheyShow) {
 // Shadows are columns of the summary only where a row casts them, which its stages tell.
 TEST(ReportColumns, KnowShadowsByTheirStage) {
     TextTable texts = one_row();
+    const auto empty = [&](const char* column) {
+        const auto found = std::ranges::find(texts.columns, column);
+        texts.rows[0][static_cast<std::size_t>(found - texts.columns.begin())] = "";
+    };
+    EXPECT_EQ(report_rows(texts)[0].setting.settings.shadows, Shadows::sampled);
+    empty("shadow rays");
     EXPECT_EQ(report_rows(texts)[0].setting.settings.shadows, Shadows::exact);
-    const auto stage = std::ranges::find(texts.columns, "cast_shadows [ms]");
-    texts.rows[0][static_cast<std::size_t>(stage - texts.columns.begin())] = "";
+    empty("cast_shadows [ms]");
     EXPECT_EQ(report_rows(texts)[0].setting.settings.shadows, Shadows::off);
 }
 

@@ -151,12 +151,12 @@ TEST(ReportSettings, ForwardRenderersHaveNoGBufferToVary) {
     EXPECT_TRUE(found.count(SettingAxis::grid));
 }
 
-std::set<std::string> names_with(Shadows shadows, const SettingChoice& choice) {
+std::set<std::string> names_with(Shadows shadows, const SettingChoice& choice,
+                                 const Scene& scene = make_generated_scene("plain")) {
     RenderSettings base;
     base.shadows = shadows;
     std::set<std::string> names;
-    for (const auto& s :
-         report_settings(make_generated_scene("plain"), base, report_device(), choice)) {
+    for (const auto& s : report_settings(scene, base, report_device(), choice)) {
         names.insert(s.name);
         EXPECT_FALSE(is_forward(s.settings.renderer) && s.settings.shadows != Shadows::off)
             << s.name;
@@ -183,6 +183,21 @@ TEST(ReportSettings, ShadowsAreAnAxisWhereTheyAreAskedFor) {
     for (const std::string& name : names_with(Shadows::off, {})) {
         EXPECT_FALSE(name.starts_with("shadows")) << name;
     }
+}
+
+TEST(ReportSettings, SoftShadowsHaveEveryPowerOfTwoRays) {
+    Scene scene = make_generated_scene("plain");
+    scene.lights.resize(1);
+    scene.lights.front().type = LightType::sphere;
+    scene.lights.front().radius = 0.1f;
+    scene.lights.front().range = 5.0f;
+    const auto names = names_with(Shadows::sampled, {}, scene);
+    for (const int rays : {1, 2, 8, 16, 32}) {
+        EXPECT_TRUE(names.count("shadows sampled " + std::to_string(rays))) << rays;
+    }
+    EXPECT_FALSE(names.count("shadows sampled 4")) << "that is the default";
+    EXPECT_FALSE(names.count("shadows exact")) << "there are none";
+    EXPECT_FALSE(names_with(Shadows::sampled, {}).count("shadows sampled 2"));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "host/certify/shadow_scenarios.h"
+#include "host/measure/metrics/statistics.h"
 #include "tests/support/render_fixture.h"
 
 namespace kilolux {
@@ -53,6 +54,24 @@ TEST(ShadowError, FallsWithTheRaysAndIsTold) {
     EXPECT_LT(errors[0].within_picture, 0.9) << "one ray estimates a pixel badly";
     EXPECT_LT(errors[2].variance, 1e-4 * errors[0].variance);
     EXPECT_LT(errors[2].noisy_share, 0.01);
+}
+
+// The truth is a mean of pictures, whose noise is part of each interval.
+TEST(ShadowError, OfLightsWithASizeIsAboutTheMean) {
+    ShadowScenario scenario = lit_columns();
+    for (SceneLight& light : scenario.scene.lights) {
+        light.type = LightType::sphere;
+        light.radius = 0.4f;
+    }
+    const auto errors =
+        measure(scenario,
+                {.rays = {2, 8}, .draws = 512, .seeds = 2, .truth = {.rays = 64, .pictures = 32}});
+    for (const SampledShadowError& e : errors) {
+        EXPECT_NEAR(e.estimated_variance / e.variance, 1.0, 0.15) << e.rays;
+        EXPECT_GT(e.tested_share, 0.02) << e.rays;
+        EXPECT_NEAR(e.within_mean, 0.95, 0.03) << e.rays;
+    }
+    EXPECT_LT(4.0 * errors[1].variance, 1.3 * errors[0].variance) << "1/N or less";
 }
 
 TEST(ShadowError, IsNoneWhereNothingHides) {

@@ -43,4 +43,9 @@ Statistics statistics(std::span<const double> values) {
     return out;
 }
 
+bool is_within(double estimate, double variance, double truth) {
+    constexpr double kNormalQuantile = 1.959964;
+    return std::abs(estimate - truth) <= kNormalQuantile * std::sqrt(variance);
+}
+
 }  // namespace kilolux

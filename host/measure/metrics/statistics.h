@@ -31,4 +31,8 @@ double quantile(std::span<const double> sorted, double share);
 /// overlap differ with 95 % confidence (McGill, Tukey and Larsen 1978, "Variations of Box Plots").
 double notch(std::span<const double> sorted);
 
+/// Whether a true value lies within the 95 % interval about an estimate of that variance, whose
+/// error is normal. Without a variance it must equal the estimate.
+bool is_within(double estimate, double variance, double truth);
+
 }  // namespace kilolux

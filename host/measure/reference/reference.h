@@ -33,6 +33,7 @@ struct ReferenceOptions {
     double random_ranges = 0.0;          // RANDOM_RANGES of evaluate.h, for lights that have one
     bool windowed = true;                // false: unbounded inverse square, no light has a range
     double area_tolerance = 1e-6;        // relative, of the integral over a light with a size
+    int area_steps = 24;  // even; with shadows, rays to a light that is seen in part are its square
     OnProgress progress{};
     std::shared_ptr<const ShadowCaster> shadows{};  // none: every light is seen
     bool tinted_shadows = false;  // with shadows: surfaces that blend or transmit take their part

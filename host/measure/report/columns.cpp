@@ -107,6 +107,21 @@ Columns setting_columns() {
                 [](Row& row, const std::string& text) { row.speed.scaled = !text.empty(); })};
 }
 
+bool has_rays(const Row& row) { return row.setting.settings.shadows == Shadows::sampled; }
+
+// Those of sampled shadows.
+ReportColumn rays_column() {
+    ReportColumn out("shadow rays", [](const Row& row) {
+        return has_rays(row) ? Cell(static_cast<double>(row.setting.settings.shadow_rays)) : Cell();
+    });
+    out.take = [](Row& row, const std::string& text) {
+        row.setting.settings.shadows = Shadows::sampled;
+        row.setting.settings.shadow_rays = static_cast<int>(number_in(text));
+    };
+    out.is_shown = [](const Rows& rows) { return std::ranges::any_of(rows, has_rays); };
+    return out;
+}
+
 Columns count_columns() {
     Columns out = {
         count_column("k", &ReportSpeed::k),
@@ -118,6 +133,7 @@ Columns count_columns() {
          }},
         {"G evaluations/s", [](const Row& row) { return 1e-9 * row.speed.evaluations_per_s; }},
         number_column("cut-off", [](auto& row) { return &row.cut_off; }),
+        rays_column(),
         {"missed lights", &Row::missed_lights},
         {"error size",
          [](const Row& row) {
@@ -195,7 +211,11 @@ Columns estimate_columns() {
         estimate_column(
             "estimated / error",
             [](const Estimate& e) { return e.error > 0.0 ? Cell(e.estimated / e.error) : Cell(); },
-            [](Estimate& e, Text text) { e.error = e.estimated / number_in(text); })};
+            [](Estimate& e, Text text) { e.error = e.estimated / number_in(text); }),
+        estimate_column(
+            "in 95 % [%]",
+            [](const Estimate& e) { return e.within ? Cell(100.0 * *e.within) : Cell(); },
+            [](Estimate& e, Text text) { e.within = number_in(text) / 100.0; })};
 }
 
 ReportColumn stage_column(const std::string& name, std::string_view stage) {

@@ -3,16 +3,27 @@
 
 #include <algorithm>
 
+#include "host/render/plan/scene_plan.h"
+
 namespace kilolux {
 namespace {
 
 constexpr double kSlowFrameMs = 20000.0;  // slower frames are not timed at full size
 constexpr int kLargerSide = 4;            // of the frame that shows how time grows with pixels
 
-// A ray in double takes as long as about ten evaluations.
-ErrorSizeLimits affordable(ErrorSizeLimits limits, const RenderSettings& settings) {
+// A ray in double takes as long as about ten evaluations, a light with a size as thirty of them and
+// as many rays.
+ErrorSizeLimits affordable(ErrorSizeLimits limits, const Scene& scene,
+                           const RenderSettings& settings) {
+    if (make_scene_plan(scene, settings, 0).kernels.area_lights) limits.evaluations /= 30.0;
     if (settings.shadows != Shadows::off) limits.evaluations /= 10.0;
     return limits;
+}
+
+// Settings whose pictures differ by their noise alone.
+bool differ_in_rays(const ReportSetting& setting) {
+    const bool is_axis = setting.axis == SettingAxis::shadows || setting.axis == SettingAxis::none;
+    return is_axis && setting.settings.shadows == Shadows::sampled && setting.settings.samples == 1;
 }
 
 }  // namespace
@@ -28,7 +39,7 @@ ReportComparison::ReportComparison(const ReportView& view, const RenderSettings&
               view.opened},
       error_size_(kilolux::error_size({base.width, base.height},
                                       base.lights.count + view.scene.lights.size(),
-                                      affordable(limits, base))),
+                                      affordable(limits, view.scene, base))),
       references_(view, at_error_size(base)) {}
 
 void ReportComparison::on_step(std::function<void()> call) {
@@ -168,8 +179,12 @@ std::optional<ErrorEstimate> ReportComparison::estimated_error(const ReportRow& 
     settings.want.aovs = {estimate_aov(*kind)};
     renderer.change(settings);
     const Frame frame = renderer.render(view_.camera, view_.time);
-    return compare_estimate(*kind, frame.aovs.front(), row.setting.settings.samples, row.picture,
-                            reference.radiance);
+    const Layer& estimate = frame.aovs.front();
+    ErrorEstimate out = compare_estimate(*kind, estimate, row.setting.settings.samples, row.picture,
+                                         reference.radiance);
+    if (differ_in_rays(row.setting))
+        out.within = share_within(estimate, row.picture, references_.mean(device));
+    return out;
 }
 
 double extrapolated_ms(const TimedFrame& small, const TimedFrame& larger, double pixels) {

@@ -81,4 +81,19 @@ ErrorEstimate compare_estimate(EstimateKind kind, const Layer& estimate, int sam
                  : compare_standard(estimate, samples, picture, reference);
 }
 
+double share_within(const Layer& standard, const RgbImage& picture, const MeanPicture& mean) {
+    if (standard.values.size() != mean.variance.size() ||
+        picture.pixel_count() != mean.variance.size()) {
+        throw Error("estimated error: the mean has another size than the picture");
+    }
+    double noisy = 0.0, within = 0.0;
+    for (std::size_t i = 0; i < mean.variance.size(); ++i) {
+        const double variance = mean.variance[i] + double{standard.values[i]} * standard.values[i];
+        if (!(variance > 0.0)) continue;
+        ++noisy;
+        within += is_within(luminance(&picture.rgb[3 * i]), variance, luminance(&mean.rgb[3 * i]));
+    }
+    return noisy > 0.0 ? within / noisy : 1.0;
+}
+
 }  // namespace kilolux

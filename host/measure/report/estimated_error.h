@@ -5,6 +5,7 @@
 #include <string>
 
 #include "host/measure/metrics/rgb_image.h"
+#include "host/measure/report/mean_picture.h"
 #include "host/picture/frame.h"
 #include "host/render/settings.h"
 #include "host/scene/scene.h"
@@ -27,6 +28,7 @@ struct ErrorEstimate {
     EstimateKind kind = EstimateKind::bound;
     double estimated = 0.0;
     double error = 0.0;
+    std::optional<double> within{};  // see share_within(); of sampled shadows
 };
 
 /// The name of the AOV that holds the estimate.
@@ -35,5 +37,10 @@ const char* estimate_aov(EstimateKind kind);
 /// `estimate`: that AOV of a frame of `samples` samples. Throws Error when the sizes differ.
 ErrorEstimate compare_estimate(EstimateKind kind, const Layer& estimate, int samples,
                                const RgbImage& picture, const RgbImage& reference);
+
+/// Of the pixels with noise, the share whose luminance in the mean lies within the estimated 95 %
+/// interval about the picture's; 1 where none has noise. `standard`: the AOV error-standard of this
+/// picture of one sample. Throws Error when the sizes differ.
+double share_within(const Layer& standard, const RgbImage& picture, const MeanPicture& mean);
 
 }  // namespace kilolux

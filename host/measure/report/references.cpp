@@ -3,11 +3,14 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "host/measure/reference/decoded_samples.h"
 #include "host/render/lights/light_rows.h"
 #include "host/render/lights/light_source.h"
 #include "host/render/plan/scene_plan.h"
 #include "host/render/renderer.h"
+#include "host/scene/lights/light_ranges.h"
 
 namespace kilolux {
 namespace {
@@ -127,8 +130,19 @@ const ComparedReference& ReportReferences::unbounded() {
 const ComparedReference& ReportReferences::unlimited(const RenderSettings& settings,
                                                      const ReportDevice& device) {
     RenderSettings exact = settings;
-    exact.tails = Tails::exact;
+    if (std::ranges::any_of(view_.scene.lights, lacks_range)) exact.tails = Tails::exact;
     return kernels(exact, device);
+}
+
+const MeanPicture& ReportReferences::mean(const ReportDevice& device) {
+    const std::string key = device.gpu->info.name + ' ' + device.gpu->info.driver;
+    const std::scoped_lock lock(mutex_);
+    if (const auto found = means_.find(key); found != means_.end()) return found->second;
+    RenderSettings settings = asked_;
+    settings.opened = device.gpu;
+    MeanPicture made =
+        mean_picture(device.opened, view_.camera, view_.time, settings, {}, on_step_);
+    return means_.emplace(key, std::move(made)).first->second;
 }
 
 std::optional<std::uint64_t> missed_lights(const DecodedSurfaces& found,

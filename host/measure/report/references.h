@@ -9,6 +9,7 @@
 #include <string>
 
 #include "host/measure/reference/ray_cast_reference.h"
+#include "host/measure/report/mean_picture.h"
 #include "host/measure/report/picture_errors.h"
 #include "host/picture/decoded_surfaces.h"
 #include "host/render/renderer.h"
@@ -61,6 +62,9 @@ class ReportReferences {
     /// is the error of ranges, groups and random numbers alone.
     const ComparedReference& unlimited(const RenderSettings& settings, const ReportDevice& device);
 
+    /// The mean of sampled shadows by the settings asked for, whatever their rays.
+    const MeanPicture& mean(const ReportDevice& device);
+
     struct All {
         const ComparedReference &kernels, &surfaces, &unbounded;
     };
@@ -87,6 +91,7 @@ class ReportReferences {
     std::vector<SurfaceSamples> cast_;             // empty: not yet
     std::map<std::string, ComparedReference> kernels_, surfaces_;
     std::optional<ComparedReference> unbounded_;
+    std::map<std::string, MeanPicture> means_;
 };
 
 /// Lights that reach a pixel of the reference in any rounding but are not in the pixel's list on

@@ -146,7 +146,10 @@ void add_shadows(Variants& v, const Scene& scene) {
         v.add_option(SettingAxis::shadows, name,
                      [way = shadows](RenderSettings& s) { s.shadows = way; });
     }
-    for (const int rays : v.choice.shadow_rays) {
+    std::vector<int> all_rays = v.choice.shadow_rays;
+    if (all_rays.empty())
+        all_rays = has_areas ? std::vector{1, 2, 4, 8, 16, 32} : std::vector{1, 4, 16};
+    for (const int rays : all_rays) {
         if (base.shadows == Shadows::sampled && rays == base.shadow_rays) continue;
         v.add(SettingAxis::shadows, fmt::format("shadows sampled {}", rays),
               fmt::format("--shadows sampled --shadow-rays {}", rays), [&](RenderSettings& s) {

@@ -47,7 +47,9 @@ struct ReportSetting {
 /// The values of axes that report_settings() goes through.
 struct SettingChoice {
     bool quick = false;  // fewer grids, lanes and cut-offs, and not `forward`
-    std::vector<int> shadow_rays = {1, 4, 16};  // of sampled shadows
+    // Of sampled shadows; none: 1, 4 and 16, and with lights that have a size the powers of two
+    // up to 32.
+    std::vector<int> shadow_rays{};
 };
 
 /// The setting asked for, "default", and then every one that differs from it in one axis.

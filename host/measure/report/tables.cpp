@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <map>
 
 #include "host/measure/report/columns.h"
 #include "host/measure/roofline/stages.h"
@@ -72,6 +74,31 @@ Plot error_plot(const std::vector<Row>& rows, const std::string& caption, const 
     for (const std::size_t i : front_of(rows, error))
         front.points.push_back({rows[i].speed.relative * standard_ms, *error(rows[i])});
     plot.series.push_back(std::move(front));
+    return plot;
+}
+
+// The errors of sampled shadows over their rays; empty with fewer than three numbers of rays.
+Plot rays_plot(const std::vector<Row>& rows, const std::string& caption) {
+    std::map<int, const Row*> by_rays;
+    for (const Row& row : rows) {
+        const RenderSettings& s = row.setting.settings;
+        if (row.estimate && row.estimate->within) by_rays.emplace(s.shadow_rays, &row);
+    }
+    Plot plot;
+    if (by_rays.size() < 3) return plot;
+    plot.title = "Sampled shadows: error over rays";
+    plot.subtitle = caption;
+    plot.x_label = "rays a pixel N, at most on average (--shadow-rays)";
+    plot.y_label = "error [radiance]";
+    plot.log_x = plot.log_y = true;
+    const auto& [fewest, first] = *by_rays.begin();
+    for (const auto& [rays, row] : by_rays) {
+        const double n = rays, slope = std::sqrt(fewest / n);
+        series_of(plot, "RMSE against R2").push_back({n, row->surfaces.hdr.rmse});
+        series_of(plot, "luminance's error against R1").push_back({n, row->estimate->error});
+        series_of(plot, "its estimate").push_back({n, row->estimate->estimated});
+        series_of(plot, "1/sqrt(N)").push_back({n, first->estimate->estimated * slope});
+    }
     return plot;
 }
 
@@ -186,7 +213,9 @@ std::string report_notes(const std::vector<Row>& rows) {
         rows.front().picture.width, rows.front().picture.height, s.width, s.height,
         std::ranges::any_of(rows, has_estimate)
             ? "estimated error: a bound (the median over the pixels) or a standard error (the root "
-              "mean square); estimated / error: its ratio to the same of the actual error.\n"
+              "mean square); estimated / error: its ratio to the same of the actual error. "
+              "in 95 %: of the pixels with noise, those whose value in the mean is within their "
+              "interval.\n"
             : "");
 }
 
@@ -199,6 +228,8 @@ std::vector<NamedPlot> report_plots(const std::vector<Row>& rows, const std::str
         plot.y_label = kind.y_label;
         out.push_back({kind.stem, std::move(plot)});
     }
+    Plot over_rays = rays_plot(rows, caption);
+    if (!over_rays.series.empty()) out.push_back({"error_over_rays", std::move(over_rays)});
     return out;
 }
 

@@ -3,6 +3,7 @@
 
 #include "host/base/error.h"
 #include "host/scene/generated/atrium/atrium.h"
+#include "host/scene/generated/atrium/lanterns.h"
 #include "host/scene/generated/small.h"
 
 namespace kilolux {
@@ -14,10 +15,8 @@ struct GeneratedScene {
 };
 
 constexpr GeneratedScene kScenes[] = {
-    {"atrium", make_atrium},
-    {"grid", make_grid},
-    {"plain", make_plain},
-    {"corridor", make_corridor},
+    {"atrium", make_atrium},     {"grid", make_grid},         {"plain", make_plain},
+    {"corridor", make_corridor}, {"lanterns", make_lanterns},
 };
 
 }  // namespace

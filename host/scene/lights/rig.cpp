@@ -94,8 +94,8 @@ double metallic_share(const Scene& scene) {
 }
 
 Rig automatic_rig(const Scene& scene, bool is_generated) {
-    if (is_generated) return Rig::swarm;
     if (!scene.lights.empty()) return Rig::none;
+    if (is_generated) return Rig::swarm;
     return scene.kind == SceneKind::interior ? Rig::swarm : Rig::studio;
 }
 

@@ -10,8 +10,8 @@ namespace kilolux {
 /// Lights that are added to a scene's own.
 enum class Rig { automatic, none, swarm, studio, headlight };
 
-/// The rig that `automatic` stands for: `swarm` for an interior and for a scene that the program
-/// generated, `none` for other scenes with lights of their own, else `studio`.
+/// The rig that `automatic` stands for: `none` for scenes with lights of their own, `swarm` for an
+/// interior and for a scene that the program generated, else `studio`.
 Rig automatic_rig(const Scene& scene, bool is_generated);
 
 /// Share of the scene's surface that is metal, 0 to 1: few lights cannot show it.

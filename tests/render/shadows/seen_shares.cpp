@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/measure/metrics/statistics.h"
 #include "host/measure/reference/reference_brdf.h"
 #include "host/measure/reference/shadow_caster.h"
 #include "host/scene/lights/light_shape.h"
-#include "tests/bench/shadow_error.h"
 #include "tests/support/render_fixture.h"
 
 namespace kilolux {

@@ -38,5 +38,24 @@ TEST(SoftReference, IsTheMeanOfSampledShadows) {
     }
 }
 
+// The reference's quadrature against one of sixteen times the rays, of the sum of the picture.
+TEST(SoftReference, ErrsByLittleOfThePicture) {
+    for (const LightType type : {LightType::rectangle, LightType::sphere}) {
+        const ShadowScenario scenario = board_below(panel(type));
+        const RenderSettings settings = soft_settings(32, 18);
+        Renderer renderer(scenario.scene, settings);
+        renderer.render(scenario.camera, 0.0);
+        ReferenceOptions options = reference_options(renderer, scenario.camera);
+        options.area_steps = 96;
+        const LitSurfaces lit = renderer.lit_surfaces();
+        const RgbImage fine = shade_reference(lit, options).radiance;
+        options.area_steps = ReferenceOptions{}.area_steps;
+        const RgbImage usual = shade_reference(lit, options).radiance;
+        const std::vector<float> picture(usual.rgb.begin(), usual.rgb.end());
+        EXPECT_LT(difference(picture, fine), 5e-4) << static_cast<int>(type);
+        EXPECT_GT(difference(picture, fine), 1e-6) << "the same rays";
+    }
+}
+
 }  // namespace
 }  // namespace kilolux

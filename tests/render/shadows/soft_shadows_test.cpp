@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "host/base/error.h"
+#include "host/scene/generated/mesh_builder.h"
+#include "host/scene/generated/small.h"
 #include "tests/render/shadows/seen_shares.h"
 #include "tests/render/shadows/soft_scenes.h"
 
@@ -117,6 +119,26 @@ TEST(SoftShadows, WithoutCastersAreNoNoise) {
                   Renderer(scenario.scene, settings).render(scenario.camera, 0.0).radiance);
         for (const float error : sampled.aovs.front().values) ASSERT_EQ(error, 0.0f);
     }
+}
+
+// A bulb in its light, as of glass around a filament. The floor reflects it glossily, too.
+TEST(SoftShadows, WhatASphereEnclosesHidesNothingOfIt) {
+    const SceneLight light = panel(LightType::sphere);
+    ShadowScenario scenario = board_below(light);
+    scenario.scene.instances.pop_back();
+    scenario.scene.materials.front().roughness = 0.3f;
+    const int bulb =
+        add_mesh(scenario.scene, ball(0.97 * light.radius, 24).build("bulb", 0, 1.0, false));
+    place(scenario.scene, bulb, placed(light.position));
+    RenderSettings settings = soft_settings(48, 27, 16);
+    settings.shading = Shading::pbr;
+    settings.want.aovs = {"error-standard"};
+    const Frame sampled = Renderer(scenario.scene, settings).render(scenario.camera, 0.0);
+    settings.want.aovs.clear();
+    settings.shadows = Shadows::off;
+    EXPECT_EQ(sampled.radiance,
+              Renderer(scenario.scene, settings).render(scenario.camera, 0.0).radiance);
+    for (const float error : sampled.aovs.front().values) ASSERT_EQ(error, 0.0f);
 }
 
 // The edge of a board at height h under a light of width w at height H casts a penumbra of the

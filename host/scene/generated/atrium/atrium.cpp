@@ -126,15 +126,13 @@ using namespace atrium_plan;
 
 constexpr double kPotHeight = 0.56;  // [m] of the soil
 
-bool even(const Place& bay) { return (bay.index + bay.side) % 2 == 0; }
-
 void add_niche_things(Scene& scene) {
     const int urn_mesh = add_atrium_mesh(scene, "urn", urn(), AtriumMaterial::terracotta);
     const int bench_mesh = add_atrium_mesh(scene, "bench", bench(), AtriumMaterial::marble);
     for (const Place& bay : bays()) {
-        const glm::dvec3 at =
-            even(bay) ? glm::dvec3(0.0, 0.46, kAisle + 0.10) : glm::dvec3(0.0, 0.0, kAisle - 0.42);
-        place(scene, even(bay) ? urn_mesh : bench_mesh, bay.world_from_piece * placed(at));
+        const glm::dvec3 at = is_even(bay) ? glm::dvec3(0.0, 0.46, kAisle + 0.10)
+                                           : glm::dvec3(0.0, 0.0, kAisle - 0.42);
+        place(scene, is_even(bay) ? urn_mesh : bench_mesh, bay.world_from_piece * placed(at));
     }
 }
 
@@ -144,7 +142,7 @@ void add_lanterns(Scene& scene) {
     const int glass =
         add_atrium_mesh(scene, "lantern-panes", lantern_glass(kChain), AtriumMaterial::glass);
     for (const Place& bay : bays()) {
-        if (!even(bay)) continue;
+        if (!is_even(bay)) continue;
         const glm::dmat4 crown =
             bay.world_from_piece * placed({0.0, kSpring + kVaultRise, kAisle / 2});
         place(scene, iron, crown);

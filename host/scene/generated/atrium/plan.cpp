@@ -29,6 +29,8 @@ std::vector<Place> bays() {
     return out;
 }
 
+bool is_even(const Place& bay) { return (bay.index + bay.side) % 2 == 0; }
+
 std::vector<Place> corners() {
     std::vector<Place> out;
     for (int side = 0; side < 4; ++side) out.push_back(on_side(side, half_length(side), side));

@@ -42,6 +42,9 @@ struct Place {
 /// The bays, side after side.
 std::vector<Place> bays();
 
+/// Whether a bay has an urn and a lantern; the bays between them have benches.
+bool is_even(const Place& bay);
+
 /// The four corners: origin at the corner column, +x and +z to the outer walls.
 std::vector<Place> corners();
 
