@@ -147,6 +147,7 @@ struct SceneLight {
     bool two_sided = false;       // rectangle, disk, triangle
     bool has_own_range = true;    // false: fill_missing_ranges() set it, see light_ranges.h
     bool follows_camera = false;  // position and direction are in the camera's space
+    bool of_surface = false;      // made of an emissive surface: see glowing_surfaces.h
     bool operator==(const SceneLight&) const = default;
 };
 

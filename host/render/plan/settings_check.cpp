@@ -84,15 +84,25 @@ void check_settings(const RenderSettings& settings) {
     check_view(settings);
 }
 
-void check_area_lights(int shading, Shadows shadows) {
+std::string area_light_problem(int shading, Shadows shadows) {
     if (shadows == Shadows::exact) {
-        throw UsageError(
-            "shadows exact: a point may see a part of a light with a size; use --shadows sampled, "
-            "with many --shadow-rays for little noise");
+        return "shadows exact: a point may see a part of a light with a size; use --shadows "
+               "sampled, with many --shadow-rays for little noise";
     }
-    if (shading != SHADING_BLINN_PHONG) return;
-    throw UsageError(
-        "shading blinn-phong: it has no highlights of lights with a size; use pbr or lambert");
+    if (shading != SHADING_BLINN_PHONG) return "";
+    return "shading blinn-phong: it has no highlights of lights with a size; use pbr or lambert";
+}
+
+void check_area_lights(int shading, Shadows shadows) {
+    const std::string problem = area_light_problem(shading, shadows);
+    if (!problem.empty()) throw UsageError(problem);
+}
+
+// Shading::automatic is one of the models that take them.
+bool take_area_lights(const RenderSettings& settings) {
+    const int shading =
+        settings.shading == Shading::automatic ? SHADING_PBR : model_of(settings.shading);
+    return area_light_problem(shading, settings.shadows).empty();
 }
 
 bool tree_can_light(const Scene& scene, const RenderSettings& settings) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "host/render/settings.h"
 
 namespace kilolux {
@@ -9,9 +11,15 @@ namespace kilolux {
 /// refuse them before it loads one; Error for a name that settings.force_features does not know.
 void check_settings(const RenderSettings& settings);
 
-/// Throws UsageError where a shading model (SHADING_*) or shadows have no light of lights with a
-/// size.
+/// Why a shading model (SHADING_*) or shadows have no light of lights with a size; empty where they
+/// have.
+std::string area_light_problem(int shading, Shadows shadows);
+
+/// Throws UsageError for that reason.
 void check_area_lights(int shading, Shadows shadows);
+
+/// Whether lights with a size can light any scene with these settings.
+bool take_area_lights(const RenderSettings& settings);
 
 /// Whether Tails::tree can light the scene with these settings: a tree's nodes cast no shadows, and
 /// only deferred has them, for opaque surfaces.

@@ -69,4 +69,15 @@ void set_triangle(SceneLight& light, const glm::dvec3& a, const glm::dvec3& b,
     light.skew = static_cast<float>(glm::dot(y, light.side));
 }
 
+void set_rectangle(SceneLight& light, const glm::dvec3& corner, const glm::dvec3& x,
+                   const glm::dvec3& y) {
+    const double width = glm::length(x);
+    light.type = LightType::rectangle;
+    light.position = corner + 0.5 * (x + y);
+    light.side = x / width;
+    light.direction = glm::normalize(glm::cross(x, y));
+    light.width = static_cast<float>(width);
+    light.height = static_cast<float>(glm::length(y));
+}
+
 }  // namespace kilolux

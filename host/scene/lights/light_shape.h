@@ -26,4 +26,9 @@ double bounding_radius(const SceneLight& light);
 /// counter-clockwise order. Its position is the centroid; without an area it has no direction.
 void set_triangle(SceneLight& light, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
 
+/// Makes the light a rectangle with a corner at `corner` and perpendicular edges from there [m],
+/// that shines along x cross y.
+void set_rectangle(SceneLight& light, const glm::dvec3& corner, const glm::dvec3& x,
+                   const glm::dvec3& y);
+
 }  // namespace kilolux

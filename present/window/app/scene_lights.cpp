@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "host/base/log.h"
+#include "host/render/plan/settings_check.h"
 #include "present/cli/scene_choice.h"
 
 namespace kilolux {
@@ -34,6 +35,10 @@ void take_lit(RenderSettings& settings, const SharedOptions& lit) {
 bool SceneLights::fit(const ViewState& state) const {
     if (state.rig != rig_) return false;
     const RenderSettings &now = state.settings, &lit = lit_.settings;
+    if (asked_.emissive_lights == EmissiveLights::automatic && lit_.rig == Rig::none &&
+        take_area_lights(now) != take_area_lights(lit)) {
+        return false;
+    }
     if (now.tails != Tails::automatic) return true;
     if (asked_.settings.tails != Tails::automatic) return false;
     return lit.tails == Tails::automatic ||
@@ -55,12 +60,14 @@ void SceneLights::replace(RenderWorker& worker, const ViewState& state,
         options->settings.tails = state.settings.tails;
         options->settings.renderer = state.settings.renderer;
         options->settings.shadows = state.settings.shadows;
+        options->settings.shading = state.settings.shading;
     }
     const SharedOptions asked = with_rig(asked_, state.rig);
     relit_ = Awaited(worker.ask([&scene = scene_, asked, settings](Renderer& renderer) {
         Relit out{asked, {}};
         RenderSettings next = settings;
         const std::vector<SceneLight> former = scene.added_lights();
+        const bool glowed = scene.glow() != nullptr;
         try {
             scene.replace_lights({});
             out.line = light_scene(out.options, scene);
@@ -72,6 +79,7 @@ void SceneLights::replace(RenderWorker& worker, const ViewState& state,
             return out;
         } catch (...) {
             scene.replace_lights(former);
+            scene.light_by_surfaces(glowed);
             throw;
         }
     }));

@@ -19,7 +19,8 @@ class SceneLights {
     SceneLights(AnimatedScene& scene, SharedOptions asked, SharedOptions lit, Rig rig)
         : scene_(scene), asked_(std::move(asked)), lit_(std::move(lit)), rig_(rig) {}
 
-    /// Whether the lights and their tails are those of the state's rig, renderer and shadows.
+    /// Whether the lights and their tails are those of the state's rig, renderer, shading and
+    /// shadows.
     bool fit(const ViewState& state) const;
     /// The state's settings. Automatic tails are replaced by those that light_scene() chose.
     RenderSettings settings_of(const ViewState& state) const;
