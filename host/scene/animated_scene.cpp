@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/animated_scene.h"
 
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
 #include "host/base/log.h"
+#include "host/base/system/memory.h"
 #include "host/scene/gltf/animation.h"
 #include "host/scene/gltf/choices.h"
 #include "host/scene/gltf/light_profiles.h"
@@ -107,6 +112,7 @@ AnimatedScene::AnimatedScene(const std::filesystem::path& path, const LoadOption
     : file_(std::make_unique<File>()) {
     File& file = *file_;
     file.document = load_gltf_document(path, options);
+    budget_ = file.document.budget;
     const bool moves = !file.document.animated.empty();
     if (moves) file.document.options.time = 0.0;
     // The scene gets a copy.
@@ -163,13 +169,52 @@ void AnimatedScene::replace_lights(const std::vector<SceneLight>& lights) {
 }
 
 std::span<const SceneLight> AnimatedScene::own_lights() const {
-    return std::span(scene_.lights).first(scene_.lights.size() - added_lights_.size());
+    const auto end = std::ranges::find_if(
+        scene_.lights.begin(),
+        scene_.lights.end() - static_cast<std::ptrdiff_t>(added_lights_.size()),
+        &SceneLight::of_surface);
+    return {scene_.lights.begin(), end};
 }
 
 std::vector<NumberedLight> AnimatedScene::exchange_lights(std::vector<NumberedLight> lights) {
     for (NumberedLight& one : lights) std::swap(scene_.lights.at(one.number), one.light);
     if (!lights.empty()) ++scene_.revisions.lights;
     return lights;
+}
+
+void AnimatedScene::light_by_surfaces(bool on) {
+    if (on == (glowing_ != nullptr)) return;
+    if (!budget_) budget_ = std::make_shared<LoadBudget>(loading_limit(0));
+    auto next = on ? std::make_unique<GlowingSurfaces>(budget_) : nullptr;
+    GlowingParts parts = glowing_parts(scene_);
+    parts.moves = moves();
+    const auto lights = on ? next->lights(parts) : std::vector<SceneLight>{};
+    std::erase_if(scene_.lights, [](const SceneLight& light) { return light.of_surface; });
+    const auto added = static_cast<std::ptrdiff_t>(added_lights_.size());
+    scene_.lights.insert(scene_.lights.end() - added, lights.begin(), lights.end());
+    glowing_ = std::move(next);
+    ++scene_.revisions.lights;
+}
+
+// The lights of surfaces at the file's time: made again only where meshes, instances or materials
+// differ from the scene's.
+std::vector<SceneLight> AnimatedScene::glow_at(const File& file, const std::vector<Mesh>& moved,
+                                               const std::vector<Instance>& instances) {
+    std::vector<SceneLight> out;
+    if (!glowing_) return out;
+    GlowingParts parts = glowing_parts(scene_);
+    parts.materials = file.materials.materials;
+    parts.instances = instances;
+    parts.moves = true;
+    bool differs = scene_.instances != instances || scene_.materials != file.materials.materials;
+    for (std::size_t j = 0; j < moved.size(); ++j) {
+        if (moved[j].indices.empty()) continue;
+        parts.meshes[static_cast<std::size_t>(file.mesh_of_job[j])] = &moved[j];
+        differs = true;
+    }
+    if (differs) return glowing_->lights(parts);
+    std::ranges::copy_if(scene_.lights, std::back_inserter(out), &SceneLight::of_surface);
+    return out;
 }
 
 void AnimatedScene::set_time(double time) {
@@ -209,7 +254,7 @@ void AnimatedScene::place() {
         place_instances(file.document, plan, file.jobs, file.mesh_of_job);
     std::vector<SceneLight> lights = convert_lights(file.document, nodes);
     std::vector<SceneCamera> cameras = convert_cameras(file.document, nodes);
-    set_lights(nodes, std::move(lights));
+    set_lights(nodes, std::move(lights), glow_at(file, meshes, instances));
     set_meshes(std::move(meshes));
     SceneRevisions& revisions = scene_.revisions;
     if (scene_.materials != file.materials.materials) {
@@ -222,11 +267,13 @@ void AnimatedScene::place() {
     file.shapes = std::move(plan.shapes);
 }
 
-// Sets the file's lights, those with profiles, and the added ones.
-void AnimatedScene::set_lights(const PlacedNodes& nodes, std::vector<SceneLight> lights) {
+// Sets the file's lights, those with profiles, those of surfaces, and the added ones.
+void AnimatedScene::set_lights(const PlacedNodes& nodes, std::vector<SceneLight> lights,
+                               const std::vector<SceneLight>& of_surfaces) {
     std::swap(scene_.lights, lights);
     const std::vector<SceneProfile> profiles = scene_.aimed_profiles;
     add_profile_lights(file_->document, nodes, scene_);
+    scene_.lights.insert(scene_.lights.end(), of_surfaces.begin(), of_surfaces.end());
     scene_.lights.insert(scene_.lights.end(), added_lights_.begin(), added_lights_.end());
     if (scene_.lights != lights || scene_.aimed_profiles != profiles) ++scene_.revisions.lights;
 }

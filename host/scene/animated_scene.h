@@ -8,6 +8,7 @@
 #include "host/scene/enclosure.h"
 #include "host/scene/framing.h"
 #include "host/scene/gltf/load_scene.h"
+#include "host/scene/lights/glow/glowing_surfaces.h"
 
 namespace kilolux {
 
@@ -62,10 +63,18 @@ class AnimatedScene {
     const std::vector<SceneLight>& added_lights() const { return added_lights_; }
     void replace_lights(const std::vector<SceneLight>& lights);
 
-    /// The lights before the added ones.
+    /// The lights before those of surfaces and the added ones.
     std::span<const SceneLight> own_lights() const;
     /// Replaces some of these, until the time changes, and returns what they were.
     std::vector<NumberedLight> exchange_lights(std::vector<NumberedLight> lights);
+
+    /// Whether emissive surfaces are lights, too, at any time: those of GlowingSurfaces, behind the
+    /// file's own. At first they are not. Throws MemoryError where memory for loading lacks; the
+    /// scene then stays as it is.
+    void light_by_surfaces(bool on);
+
+    /// What they were made of; null where they are no lights.
+    const GlowCounts* glow() const { return glowing_ ? &glowing_->counts() : nullptr; }
 
     Scene take() && { return std::move(scene_); }
 
@@ -75,14 +84,19 @@ class AnimatedScene {
                                      bool first);
     static std::vector<Mesh> build_moved(File& file, const ShapePlan& plan, bool first);
     void place();
-    void set_lights(const PlacedNodes& nodes, std::vector<SceneLight> lights);
+    std::vector<SceneLight> glow_at(const File& file, const std::vector<Mesh>& moved,
+                                    const std::vector<Instance>& instances);
+    void set_lights(const PlacedNodes& nodes, std::vector<SceneLight> lights,
+                    const std::vector<SceneLight>& of_surfaces);
     void set_meshes(std::vector<Mesh> meshes);
     void survey();
 
     Scene scene_;
     Enclosure enclosure_;
     std::vector<SceneLight> added_lights_;
-    std::unique_ptr<File> file_;  // none: no animation
+    std::shared_ptr<LoadBudget> budget_;        // the file's; a made scene gets one of its own
+    std::unique_ptr<GlowingSurfaces> glowing_;  // none: emissive surfaces are no lights
+    std::unique_ptr<File> file_;                // none: no animation
 };
 
 }  // namespace kilolux

@@ -148,6 +148,7 @@ struct SceneLight {
     bool has_own_range = true;    // false: fill_missing_ranges() set it, see light_ranges.h
     bool follows_camera = false;  // position and direction are in the camera's space
     bool is_sized_point = false;  // a sphere that set_point_size() made of a point
+    bool of_surface = false;      // made of an emissive surface: see glowing_surfaces.h
     bool operator==(const SceneLight&) const = default;
 };
 

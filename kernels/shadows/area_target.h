@@ -31,6 +31,7 @@ typedef struct AreaLight {
     uint lobe;
     UV slot;           // of the lobe, of each lane's ray
     float3 low, high;  // box of its targets, shadow space [m]
+    float margin;      // area_margin()
 } AreaLight;
 
 // The light as the target of rays whose slots are of one lobe, that of lane 0. slots: of the light.
@@ -102,6 +103,16 @@ static inline void box_of_area(ShadowView view, float3 center, AreaLight* light)
         (float3)(reach_along(shape, x), reach_along(shape, y), reach_along(shape, z)) * 1.001f;
     light->low = center - reach;
     light->high = center + reach;
+}
+
+// No target is farther from the light's own surface by rounding [m]. A target sums about ten
+// roundings of coordinates in view space, and is turned to shadow space, where the corners of the
+// triangles that the light may be made of are rounded, too: fewer than 16 of 2^-24 of each. Twice
+// that, so that a triangle in the light's plane never hides it.
+#define AREA_MARGIN (1.0f / (1 << 19))
+static inline float area_margin(AreaLight light) {
+    float3 farthest = fabs(light.center) + fmax(fabs(light.low), fabs(light.high));
+    return AREA_MARGIN * (farthest.x + farthest.y + farthest.z);
 }
 
 // The light as the surface sees it; for the glossy lobe, in its space.

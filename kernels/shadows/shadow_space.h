@@ -59,13 +59,18 @@ typedef struct LaneLight {
     FV3 at;
     float reach;
     bool is_direction;
+    float margin;  // so near to `at` a triangle's plane does not hide it [m]
 } LaneLight;
 
 static inline FV3 splat3(float3 v) { return fv3(fv(v.x), fv(v.y), fv(v.z)); }
 
 // The light at the end of VW rays that have it in common.
 static inline LaneLight shared_light(ShadowLight light) {
-    return (LaneLight){splat3(light.at), light.reach, light.is_direction};
+    float margin = 0.0f;
+#if AREA_SHADOWS
+    if (light.is_area) margin = light.area.margin;
+#endif
+    return (LaneLight){splat3(light.at), light.reach, light.is_direction, margin};
 }
 
 // `light`: in view space.
@@ -92,6 +97,7 @@ static inline ShadowLight with_shape(ShadowLight light, ShadowView view, float4 
     light.area.of_light = key;
     if (!light.is_area) return light;
     box_of_area(view, light.at, &light.area);
+    light.area.margin = area_margin(light.area);
     light.reach += length(light.area.high - light.area.low);
     return light;
 }

@@ -17,7 +17,9 @@
 //   triangle's box, too, which is less than what walks grant.
 // * the plane asks for 1 unit: a triangle never shades its own points, nor those of its neighbours
 //   in the plane. Points that lie less than the unit behind it, 2^-17 of the coordinates, are lit.
-// A light so near to a triangle's plane that its side is uncertain is not hidden by it. So whether
+// A light so near to a triangle's plane that its side is uncertain is not hidden by it; nor is a
+// point of a light with a size within that light's margin of the plane (area_target.h), so that an
+// emissive surface and its neighbours in the plane do not hide their own light. So whether
 // a triangle hides a point depends on the light, the triangle and the point alone, and not on which
 // walk found it.
 #ifndef KILOLUX_DEVICE_SHADOW_TRIANGLE_H
@@ -120,7 +122,7 @@ static inline ShadowPlanes shadow_planes(const FV3* v, LaneLight light) {
     } else {
         FV3 from = sub3(l, t[0]);
         out.height = dot3(out.normal, from);
-        height_unit *= size3(from);
+        height_unit = max(height_unit * size3(from), size3(out.normal) * light.margin);
     }
     out.is_sure = lane_mask(fabs(out.height) > max(height_unit, fv(1e-36f)));
     return out;

@@ -98,6 +98,16 @@ const Choices& choices_of(Rig) {
     return choices;
 }
 
+const Choices& choices_of(EmissiveLights) {
+    static const Choices choices = {
+        {"auto",
+         "on where the scene would have no other light and shading and shadows take lights with a "
+         "size; else off, for files often have lamps and lights that stand for them"},
+        {"on", "beside all other lights; not with blinn-phong and exact shadows"},
+        {"off", "they only are seen"}};
+    return choices;
+}
+
 const Choices& choices_of(Fit) {
     static const Choices choices = {{"height", "its vertical field"},
                                     {"width", "its horizontal field"},

@@ -10,6 +10,7 @@
 #include "host/measure/bench/run.h"
 #include "host/render/settings.h"
 #include "host/scene/framing.h"
+#include "host/scene/lights/glow/glowing_surfaces.h"
 #include "host/scene/lights/rig.h"
 #include "present/cli/progress.h"
 
@@ -31,6 +32,7 @@ const Choices& choices_of(Tails);
 const Choices& choices_of(BenchMotion);
 const Choices& choices_of(ToneCurve);
 const Choices& choices_of(Rig);
+const Choices& choices_of(EmissiveLights);
 const Choices& choices_of(Fit);
 const Choices& choices_of(SeenFrom);
 const Choices& choices_of(ProgressKind);

@@ -29,12 +29,12 @@ void check_reflections(const SharedOptions& options) {
 // band_rows, kernels.chunks, kernels.group_height), and by the window and the commands
 // (grid.fine_per_octave, memory_shares and the rest of want).
 void count_members(SharedOptions& options) {
-    [[maybe_unused]] auto& [scene, load, settings, rig, environment, background, shown_background,
-                            reflections, maps, shows_environment, compares_renderers,
-                            environment_lights, lights_given, ambient_given, tone_curve_given,
-                            shadow_rays_given, takes_automatic_exposure, automatic_exposure,
-                            takes_automatic_samples, camera, time, show_error, progress, quiet,
-                            verbose] = options;
+    [[maybe_unused]] auto& [scene, load, settings, rig, emissive_lights, environment, background,
+                            shown_background, reflections, maps, shows_environment,
+                            compares_renderers, environment_lights, lights_given, ambient_given,
+                            tone_curve_given, shadow_rays_given, takes_automatic_exposure,
+                            automatic_exposure, takes_automatic_samples, camera, time, show_error,
+                            progress, quiet, verbose] = options;
     [[maybe_unused]] auto& [load_time, allow_outside_paths, load_memory, clips, variant, strict,
                             line_width, light_size] = load;
     [[maybe_unused]] auto& [renderer, width, height, lights, tails, range_budget, seed, tree_share,
@@ -134,6 +134,11 @@ void visit_more_lights(const SettingVisitor& f, SharedOptions& o) {
                 "spheres of the same intensity",
                 kPanelPicture, "m"},
                take_size, [&s] { return text_of(s.lights.size); })
+        .choice({"--emissive-lights", "", "",
+                 "Whether emissive surfaces light the others, each triangle as a light with its "
+                 "mean emission",
+                 kPicture},
+                o.emissive_lights)
         .value({"--light-box", "X0,Y0,Z0,X1,Y1,Z1", "the scene's", "Where they are", kPicture, "m"},
                s.lights.box, parse_box)
         .choice({"--tails", "", "", "Where the file's lights without a range end", kPanelPicture},

@@ -11,6 +11,7 @@
 
 #include "host/render/settings.h"
 #include "host/scene/gltf/load_scene.h"
+#include "host/scene/lights/glow/glowing_surfaces.h"
 #include "host/scene/lights/rig.h"
 #include "present/cli/camera_choice.h"
 #include "present/cli/option_values.h"
@@ -28,6 +29,7 @@ struct SharedOptions {
     LoadOptions load;              // how a file is read; its time and memory are the picture's
     RenderSettings settings;
     Rig rig = Rig::automatic;
+    EmissiveLights emissive_lights = EmissiveLights::automatic;
     std::string environment;                              // file or built-in name; empty: none
     BackgroundChoice background;                          // behind the scene
     std::shared_ptr<const Environment> shown_background;  // set by light_scene()

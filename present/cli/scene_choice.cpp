@@ -116,6 +116,23 @@ std::string rig_reason(const SharedOptions& options, const AnimatedScene& scene)
                        scene.enclosure().reason);
 }
 
+// Whether emissive surfaces are lights beside the others that the scene has now.
+bool surfaces_light(const SharedOptions& options, const Scene& scene) {
+    if (options.emissive_lights != EmissiveLights::automatic) {
+        return options.emissive_lights == EmissiveLights::on;
+    }
+    return std::ranges::all_of(scene.lights, &SceneLight::of_surface) &&
+           options.settings.lights.count == 0 && !options.maps &&
+           take_area_lights(options.settings);
+}
+
+// What glows; empty where nothing does.
+std::string glow_line(const SharedOptions& options, const AnimatedScene& scene) {
+    if (scene.glow() == nullptr || scene.glow()->meshes == 0) return "";
+    const bool automatic = options.emissive_lights == EmissiveLights::automatic;
+    return fmt::format("\nglow    {}{}", automatic ? "(automatic) " : "", text_of(*scene.glow()));
+}
+
 std::string rig_line(Rig rig, bool automatic, const RenderSettings& settings, std::size_t own) {
     std::string line = fmt::format("rig     {}{}: ", name_of(rig), automatic ? " (automatic)" : "");
     if (const std::size_t count = rig_lights(rig).size(); count > 0) {
@@ -248,6 +265,7 @@ AnimatedScene open_animated_scene(const SharedOptions& options) {
 
 std::string light_scene(SharedOptions& options, AnimatedScene& scene) {
     scene.see_from(options.camera.view);
+    scene.light_by_surfaces(false);
     const bool automatic = options.rig == Rig::automatic;
     Rig rig = rig_of(options, scene.scene());
     const std::string reason = rig_reason(options, scene);
@@ -268,6 +286,7 @@ std::string light_scene(SharedOptions& options, AnimatedScene& scene) {
     if (!options.ambient_given) {
         ambient = rig_ambient(rig, options.environment.empty() ? ambient : 0.0f);
     }
+    choose_emissive_lights(options, scene);
     const bool finds_tails = options.settings.tails == Tails::automatic;
     choose_tails(options, scene.scene());
     // The rig option stays automatic if the automatic rig has the swarm: a copied command then
@@ -275,8 +294,12 @@ std::string light_scene(SharedOptions& options, AnimatedScene& scene) {
     options.rig = rig == Rig::swarm && has_swarm ? Rig::automatic : rig;
     return view_line(options, scene) + rig_line(rig, automatic, options.settings, own) + reason +
            from_around + (metal ? " (a studio's room, as most of the surface is metal)" : "") +
-           tails_line(scene.scene(), options.settings, finds_tails) +
+           glow_line(options, scene) + tails_line(scene.scene(), options.settings, finds_tails) +
            choose_tone_curve(options, scene.scene());
+}
+
+void choose_emissive_lights(const SharedOptions& options, AnimatedScene& scene) {
+    scene.light_by_surfaces(surfaces_light(options, scene.scene()));
 }
 
 void choose_tails(SharedOptions& options, const Scene& scene) {
@@ -284,7 +307,11 @@ void choose_tails(SharedOptions& options, const Scene& scene) {
     const bool bounded = tails_for(scene.lights, s.tails, s.range_budget) == Tails::bounded;
     if (s.tails != Tails::automatic || !bounded || s.range_budget != kDefaultRangeBudget) return;
     if (bounded_loss(scene.lights, resting_bounds(scene), s.range_budget) <= kMostLost) return;
-    const bool takes_tree = !options.compares_renderers && tree_can_light(scene, s);
+    // What a tree does not hold reaches every pixel.
+    const auto unranged = std::ranges::count_if(scene.lights, lacks_range);
+    const auto outside = unranged - std::ranges::count_if(scene.lights, is_for_tree);
+    const bool takes_tree = !options.compares_renderers && tree_can_light(scene, s) &&
+                            static_cast<std::size_t>(outside) <= kExactTails;
     if (takes_tree) {
         s.tails = Tails::tree;
         return;

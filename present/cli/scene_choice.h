@@ -19,10 +19,14 @@ void check_environment(const std::string& name);
 /// nor looks like a file, Error if the file fails.
 AnimatedScene open_animated_scene(const SharedOptions& options);
 
-/// Treats the scene as --view says and adds the lights of the options' rig and environment. Writes
-/// the chosen rig, the number of generated lights and the background to the options; returns lines
-/// that describe the lights.
+/// Treats the scene as --view says and adds the lights of the options' rig and environment, and
+/// those of emissive surfaces where --emissive-lights says so. Writes the chosen rig, the number of
+/// generated lights and the background to the options; returns lines that describe the lights.
 std::string light_scene(SharedOptions& options, AnimatedScene& scene);
+
+/// Makes emissive surfaces lights, or no lights, as --emissive-lights says. light_scene() calls it;
+/// call it again for other lights.
+void choose_emissive_lights(const SharedOptions& options, AnimatedScene& scene);
 
 /// Where the tails are automatic and bounded ranges would lose much of the light of the lights
 /// without one: chooses a tree, or longer ranges where a tree cannot light the picture. Warns where

@@ -33,6 +33,7 @@ Json light_counts(const Scene& scene, const LightOptions& generated) {
     Json out;
     for (const LightKind& kind : kLightKinds)
         out[kind.name] = std::ranges::count(scene.lights, kind.type, &SceneLight::type);
+    out["of_surfaces"] = std::ranges::count(scene.lights, true, &SceneLight::of_surface);
     const LightScale scale = automatic_light_scale(generated, scene);
     out["generated"] = generated.count;
     out["generated_range_m"] = scale.radius;

@@ -123,8 +123,10 @@ void SceneRenderer::relight(SharedOptions& options) {
     scene_.add_lights(lights_);
 }
 
-// Chooses the tails for all lights that the scene has now, if the options leave it open.
-void SceneRenderer::choose_tails() {
+// Chooses whether surfaces are lights, and the tails for all lights that the scene has now, where
+// the options leave it open.
+void SceneRenderer::choose_for_lights() {
+    choose_emissive_lights(options_, scene_);
     options_.settings.tails = asked_.tails;
     options_.settings.range_budget = asked_.range_budget;
     kilolux::choose_tails(options_, scene_.scene());
@@ -135,12 +137,13 @@ void SceneRenderer::change(const SharedOptions& next, const BudgetOptions& budge
     const SharedOptions former = std::exchange(options_, next);
     const Asked asked = asked_;
     const std::vector<SceneLight> added = scene_.added_lights();
+    const bool glowed = scene_.glow() != nullptr;
     const std::string rig = rig_;
     const Camera camera = camera_;
     try {
         asked_ = Asked(next.settings);
         if (relights) relight(options_);
-        choose_tails();
+        choose_for_lights();
         camera_ = camera_at_(scene_.scene(), 0, options_.time);
         renderer_->change(settings_of(budget, want, options_.time));
         renderer_->refit();
@@ -150,6 +153,7 @@ void SceneRenderer::change(const SharedOptions& next, const BudgetOptions& budge
         rig_ = rig;
         camera_ = camera;
         if (relights) scene_.replace_lights(added);
+        scene_.light_by_surfaces(glowed);
         throw;
     }
 }
@@ -160,7 +164,7 @@ void SceneRenderer::set_lights(std::vector<SceneLight> lights) {
     all.insert(all.end(), lights.begin(), lights.end());
     scene_.replace_lights(all);
     lights_ = std::move(lights);
-    choose_tails();
+    choose_for_lights();
     RenderSettings settings = renderer_->settings();
     settings.tails = options_.settings.tails;
     settings.range_budget = options_.settings.range_budget;

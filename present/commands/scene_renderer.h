@@ -92,7 +92,7 @@ class SceneRenderer {
     };
 
     void relight(SharedOptions& options);
-    void choose_tails();
+    void choose_for_lights();
     RenderSettings settings_of(const BudgetOptions& budget, const FrameRequest& want, double time);
 
     SharedOptions& options_;

@@ -142,7 +142,8 @@ TEST(Options, PictureOptionsArrive) {
 TEST(Options, LightCameraAndDeviceOptionsArrive) {
     const Parsed p = parsed(
         "--lights 2147483648 --light-seed 18446744073709551615 --light-radius 2.5 "
-        "--light-intensity 7 --light-size 0.25 --light-box -1,-2,-3,1,2,3 --camera-index 3 "
+        "--light-intensity 7 --light-size 0.25 --emissive-lights on --light-box -1,-2,-3,1,2,3 "
+        "--camera-index 3 "
         "--camera-position -1,2,3 "
         "--camera-focal-point 0,0,-1e3 --camera-view-up 0,0,1 --camera-view-angle 45.5 "
         "--camera-orthographic --grid 32,18,8 --lanes 16 --device pthread -v");
@@ -153,6 +154,7 @@ TEST(Options, LightCameraAndDeviceOptionsArrive) {
     EXPECT_EQ(l.intensity, 7.0);
     EXPECT_EQ(l.size, 0.25);
     EXPECT_EQ(p.shared.load.light_size, 0.25) << "of the file's points";
+    EXPECT_EQ(p.shared.emissive_lights, EmissiveLights::on);
     EXPECT_EQ(l.box.min, glm::dvec3(-1, -2, -3));
     EXPECT_EQ(l.box.max, glm::dvec3(1, 2, 3));
     EXPECT_EQ(p.shared.camera.index, 3);

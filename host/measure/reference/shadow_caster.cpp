@@ -13,6 +13,9 @@ namespace {
 constexpr double kStart = 1e-9;
 // How far along the camera's ray a stored point may lie from its surface, relative to its depth.
 constexpr double kDepthError = 1e-3;
+// Distance of a light from a triangle's plane that float32 cannot tell from 0, relative to the
+// light's distances from the point, from the triangle and from the world's origin.
+constexpr double kOnPlane = 1e-6;
 
 }  // namespace
 
@@ -68,11 +71,22 @@ std::optional<ShadowPoint> ShadowCaster::point_at(const glm::dvec3& p_view, bool
     return out;
 }
 
+bool ShadowCaster::is_at_end(const ShadowPoint& from, const Way& way, const RayHit& hit) const {
+    if (!way.to_position) return false;
+    const auto& corners = bvh_.triangles()[hit.index].corners;
+    const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    const glm::dvec3 light = from.position + way.direction;
+    const glm::dvec3 to_light = light - corners[0];
+    const double size = glm::length(way.direction) + glm::length(to_light) + glm::length(light);
+    return std::abs(glm::dot(normal, to_light)) <= kOnPlane * size * glm::length(normal);
+}
+
 bool ShadowCaster::is_free(const ShadowPoint& from, const Way& way) const {
     if (!(glm::dot(from.normal, way.direction) > 0.0)) return false;
     const Ray ray{from.position, way.direction, kStart, way.end};
-    return !bvh_.nearest(
-        ray, [&](const RayHit& hit) { return hit.index != from.triangle && hides(ray, hit); });
+    return !bvh_.nearest(ray, [&](const RayHit& hit) {
+        return hit.index != from.triangle && hides(ray, hit) && !is_at_end(from, way, hit);
+    });
 }
 
 glm::dvec3 ShadowCaster::share_at(const Ray& ray, const RayHit& hit, Shading model) const {
@@ -96,7 +110,8 @@ glm::dvec3 ShadowCaster::share_on(const ShadowPoint& from, const Way& way, Shadi
     std::vector<RayHit> passed;
     const Ray ray{from.position, way.direction, kStart, way.end};
     bvh_.nearest(ray, [&](const RayHit& hit) {
-        if (hit.index != from.triangle && is_blended_at(hit)) passed.push_back(hit);
+        const bool is_between = hit.index != from.triangle && !is_at_end(from, way, hit);
+        if (is_between && is_blended_at(hit)) passed.push_back(hit);
         return false;
     });
     merge_on_edges(passed, bvh_.triangles());
@@ -107,7 +122,7 @@ glm::dvec3 ShadowCaster::share_on(const ShadowPoint& from, const Way& way, Shadi
 
 ShadowCaster::Way ShadowCaster::way_to(const ShadowPoint& from, const glm::dvec3& p_view) const {
     const glm::dvec3 light = camera_.position + camera_.world_from_view * p_view;
-    return {light - from.position, 1.0 - kStart};
+    return {light - from.position, 1.0 - kStart, true};
 }
 
 ShadowCaster::Way ShadowCaster::way_along(const glm::dvec3& to_light) const {

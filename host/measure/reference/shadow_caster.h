@@ -22,7 +22,8 @@ struct ShadowPoint {
 /// Finds which lights points see, by rays in double, as the reference of the kernels' shadows.
 /// Every triangle hides from both sides; alpha masks are sampled at their finest level. Triangles
 /// that blend or transmit hide nothing, but let a share pass: see share(). A point sees no light on
-/// the other side of its own triangle.
+/// the other side of its own triangle. A triangle in whose plane a light lies, but for rounding to
+/// float32, does not hide it: emissive surfaces are lights.
 class ShadowCaster {
  public:
     /// Builds the hierarchy. Keeps a reference to the scene.
@@ -49,6 +50,7 @@ class ShadowCaster {
     struct Way {
         glm::dvec3 direction;
         double end;
+        bool to_position = false;  // of a light, else to one without
     };
     Way way_to(const ShadowPoint& from, const glm::dvec3& p_view) const;
     Way way_along(const glm::dvec3& to_light) const;
@@ -57,6 +59,7 @@ class ShadowCaster {
     glm::dvec3 share_at(const Ray& ray, const RayHit& hit, Shading model) const;
     bool hides(const Ray& ray, const RayHit& hit) const;
     bool is_blended_at(const RayHit& hit) const;
+    bool is_at_end(const ShadowPoint& from, const Way& way, const RayHit& hit) const;
 
     const Scene& scene_;
     Camera camera_;

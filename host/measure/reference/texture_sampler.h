@@ -5,28 +5,15 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "host/scene/scene.h"
+#include "host/scene/mip_level.h"
 
 namespace kilolux {
-
-enum class TextureEncoding { linear, srgb };
 
 /// Texture coordinates and their change from a pixel to its right and lower neighbour.
 struct TextureFootprint {
     glm::dvec2 uv{0.0};
     glm::dvec2 uv_dx{0.0};  // per pixel to the right
     glm::dvec2 uv_dy{0.0};  // per pixel down
-};
-
-/// A mip level of an image, decoded to linear values.
-struct MipLevel {
-    int width = 0;
-    int height = 0;
-    const Image* image = nullptr;  // of level 0
-    TextureEncoding encoding = TextureEncoding::linear;
-    std::vector<glm::vec4> texels;  // of the other levels
-
-    glm::dvec4 texel(int x, int y) const;
 };
 
 /// Reads a scene's textures as OpenGL 4.5 does (8.14), in double, without its approximations.

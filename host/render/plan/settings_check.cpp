@@ -98,6 +98,13 @@ void check_area_lights(int shading, Shadows shadows) {
     if (!problem.empty()) throw UsageError(problem);
 }
 
+// Shading::automatic is one of the models that take them.
+bool take_area_lights(const RenderSettings& settings) {
+    const int shading =
+        settings.shading == Shading::automatic ? SHADING_PBR : model_of(settings.shading);
+    return area_lights_problem(shading, settings.shadows).empty();
+}
+
 bool tree_can_light(const Scene& scene, const RenderSettings& settings) {
     return settings.renderer == RendererKind::deferred && settings.shadows == Shadows::off &&
            !has_blended_surfaces(scene);

@@ -18,6 +18,9 @@ std::string area_lights_problem(int shading, Shadows shadows);
 /// Throws UsageError where area_lights_problem() says something.
 void check_area_lights(int shading, Shadows shadows);
 
+/// Whether lights with a size can light any scene with these settings.
+bool take_area_lights(const RenderSettings& settings);
+
 /// Whether Tails::tree can light the scene with these settings: a tree's nodes cast no shadows, and
 /// only deferred has them, for opaque surfaces.
 bool tree_can_light(const Scene& scene, const RenderSettings& settings);

@@ -28,8 +28,8 @@ struct ExportedScene {
 /// `file` names the result: .glb holds all in itself; .gltf has its buffer beside it as <stem>.bin
 /// and its images as <stem>_<n>.png. Lights are KHR_lights_punctual with their ranges, or
 /// EXT_lights_area; what these lack is among a light's extras (range, two sides, the aspect of an
-/// ellipse, a point's radius). A light without a range stays so; triangles that shine are left out,
-/// for the loader makes them of emissive surfaces. Emission beyond 1 is
+/// ellipse, a point's radius). A light without a range stays so. Lights of emissive surfaces are
+/// not written, for the surfaces are; other triangles are left out. Emission beyond 1 is
 /// KHR_materials_emissive_strength. Numbers come back exactly, except the rotation of a texture
 /// transform and the transform of an instance that shears (two nodes then), which come back within
 /// their rounding. Throws Error when a .glb would be larger than its 4 GiB.

@@ -209,6 +209,7 @@ ExportedNodes export_nodes(const Scene& scene, const std::vector<int>& mesh_of) 
         out.roots.push_back(add_placed(out.nodes, instance.world_from_object, {{"mesh", mesh}}));
     }
     for (const SceneLight& light : scene.lights) {
+        if (light.of_surface) continue;
         if (kind_of(light).extension.empty() || !is_usable(light)) {  // files have no triangles
             ++out.unusable_lights;
             continue;

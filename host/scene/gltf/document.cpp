@@ -149,7 +149,7 @@ GltfDocument load_gltf_document(const std::filesystem::path& file, const LoadOpt
     GltfDocument document;
     document.options = options;
     document.base = {file.string(), file.parent_path(), options.allow_outside_paths};
-    document.budget = std::make_unique<LoadBudget>(loading_limit(options.max_memory_bytes));
+    document.budget = std::make_shared<LoadBudget>(loading_limit(options.max_memory_bytes));
     const auto charge_file = [&document](std::uint64_t bytes) {
         document.budget->charge_memory(bytes, document.base.file);
     };

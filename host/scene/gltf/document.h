@@ -55,7 +55,7 @@ struct GltfDocument {
     std::vector<std::size_t> clips;                // animations that play, first one first
     std::vector<AnimatedProperty> animated;        // by them
     std::map<std::size_t, std::string> broken_animations;  // why, by index; empty in `model`
-    std::unique_ptr<LoadBudget> budget;
+    std::shared_ptr<LoadBudget> budget;
     // Key times that apply_animations() has read, by accessor.
     mutable std::map<int, std::vector<float>> key_times;
 

@@ -77,4 +77,15 @@ void set_point_size(SceneLight& light, double radius) {
     light.radius = static_cast<float>(radius);
 }
 
+void set_rectangle(SceneLight& light, const glm::dvec3& corner, const glm::dvec3& x,
+                   const glm::dvec3& y) {
+    const double width = glm::length(x);
+    light.type = LightType::rectangle;
+    light.position = corner + 0.5 * (x + y);
+    light.side = x / width;
+    light.direction = glm::normalize(glm::cross(x, y));
+    light.width = static_cast<float>(width);
+    light.height = static_cast<float>(glm::length(y));
+}
+
 }  // namespace kilolux

@@ -31,4 +31,9 @@ void set_triangle(SceneLight& light, const glm::dvec3& a, const glm::dvec3& b, c
 /// photometric web stay as they are.
 void set_point_size(SceneLight& light, double radius);
 
+/// Makes the light a rectangle with a corner at `corner` and perpendicular edges from there [m],
+/// that shines along x cross y.
+void set_rectangle(SceneLight& light, const glm::dvec3& corner, const glm::dvec3& x,
+                   const glm::dvec3& y);
+
 }  // namespace kilolux

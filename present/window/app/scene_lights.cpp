@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "host/base/log.h"
+#include "host/render/plan/settings_check.h"
 #include "present/cli/scene_choice.h"
 
 namespace kilolux {
@@ -29,11 +30,12 @@ void take_lit(RenderSettings& settings, const SharedOptions& lit) {
     settings.reflections = lit.maps;
 }
 
-// Takes the settings that decide automatic tails.
+// Takes the settings that decide automatic tails and emissive lights.
 void take_tail_settings(RenderSettings& settings, const RenderSettings& from) {
     settings.tails = from.tails;
     settings.renderer = from.renderer;
     settings.shadows = from.shadows;
+    settings.shading = from.shading;
 }
 
 }  // namespace
@@ -41,6 +43,10 @@ void take_tail_settings(RenderSettings& settings, const RenderSettings& from) {
 bool SceneLights::fit(const ViewState& state) const {
     if (state.rig != rig_) return false;
     const RenderSettings &now = state.settings, &lit = lit_.settings;
+    if (asked_.emissive_lights == EmissiveLights::automatic && lit_.rig == Rig::none &&
+        take_area_lights(now) != take_area_lights(lit)) {
+        return false;
+    }
     if (now.tails != Tails::automatic) return true;
     if (asked_.settings.tails != Tails::automatic) return false;
     return lit.tails == Tails::automatic ||
@@ -82,6 +88,7 @@ void SceneLights::ask(RenderWorker& worker, const SharedOptions& asked,
         Relit out{asked, {}, with_rig};
         const std::vector<SceneLight> former_added = scene.added_lights();
         const std::vector<NumberedLight> former_own = scene.exchange_lights(own);
+        const bool glowed = scene.glow() != nullptr;
         try {
             if (with_rig) {
                 scene.replace_lights({});
@@ -99,6 +106,7 @@ void SceneLights::ask(RenderWorker& worker, const SharedOptions& asked,
         } catch (...) {
             scene.exchange_lights(former_own);
             scene.replace_lights(former_added);
+            scene.light_by_surfaces(glowed);
             throw;
         }
     }));

@@ -28,7 +28,8 @@ class SceneLights {
     OwnLights& own() { return own_; }
     const OwnLights& own() const { return own_; }
 
-    /// Whether the lights and their tails are those of the state's rig, renderer and shadows.
+    /// Whether the lights and their tails are those of the state's rig, renderer, shading and
+    /// shadows.
     bool fit(const ViewState& state) const;
     /// The state's settings. Automatic tails are replaced by those that light_scene() chose.
     RenderSettings settings_of(const ViewState& state) const;
