@@ -117,7 +117,9 @@ TEST(LoadSceneAreaLights, GetTheRadiusThatIsAskedForWhereTheyHaveNone) {
     EXPECT_EQ(sphere.type, LightType::sphere);
     EXPECT_EQ(sphere.radius, 0.5f);
     EXPECT_EQ(sphere.intensity, glm::vec3(40));
+    EXPECT_TRUE(sphere.is_sized_point);
     EXPECT_EQ(point_with({{"radius", 0.25}}, 0.5).radius, 0.25f);
+    EXPECT_FALSE(point_with({{"radius", 0.25}}, 0.5).is_sized_point) << "a radius of its own";
     EXPECT_EQ(point_with(json::object(), 0.5, "spot").type, LightType::spot);
     EXPECT_EQ(point_with(json::object(), 0.5, "directional").type, LightType::directional);
 }
