@@ -118,8 +118,8 @@ void try_area_lights(const Gpu& gpu, Findings& findings) {
     check_casts(findings, scene, settings);
     const std::vector<float> shadowed = picture_of(scene, settings);
     settings.shadows = Shadows::off;
-    findings.at_least("values in shadow",
-                      different_bits(shadowed, picture_of(scene, settings)).value, 1000);
+    const Worst shaded = different_bits(shadowed, picture_of(scene, settings));
+    findings.at_least("values in shadow", static_cast<std::uint64_t>(shaded.value), 1000);
 }
 
 }  // namespace kilolux

@@ -3,6 +3,9 @@
 // shadows.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <map>
+
 #include "host/measure/report/run.h"
 #include "host/measure/report/tables.h"
 #include "tests/render/shadows/soft_scenes.h"
@@ -40,7 +43,7 @@ TEST(ReportOfAreaLights, HasItsErrorsOverTheRays) {
         EXPECT_NEAR(row.estimate->estimated / row.estimate->error, 1.0, 0.4) << row.setting.name;
     }
     EXPECT_LT(by_rays[16]->surfaces.hdr.rmse, 0.7 * by_rays[2]->surfaces.hdr.rmse);
-    EXPECT_LT(by_rays[32]->kernels.flip_mean, by_rays[1]->kernels.flip_mean);
+    EXPECT_LT(by_rays[32]->kernels.flip.mean, by_rays[1]->kernels.flip.mean);
     const Table table = report_table(rows);
     for (const char* column : {"shadow rays", "in 95 % [%]", "R2 rmse", "estimated error"}) {
         EXPECT_EQ(std::ranges::count(table.columns, column), 1) << column;
