@@ -107,6 +107,7 @@ static inline void cast_area_light(ShadowScene scene, ShadowLight light, CastLig
         uint next = next_lobe(from, slot);
         slot = any == 0u ? next : slot + 1u;
         if (slot == next) end_lobe(rays, points);
+        if (rays->count == SHADOW_POINTS) cast_rays(scene, light, from.rays, to, rays);
     }
     if (rays->count > 0u) cast_rays(scene, light, from.rays, to, rays);
 }

@@ -59,36 +59,36 @@ class EmissiveLightsOption : public testing::Test {
     std::string line_;
 };
 
-using Counts = std::pair<std::ptrdiff_t, std::ptrdiff_t>;
+using LightCounts = std::pair<std::ptrdiff_t, std::ptrdiff_t>;
 
 TEST_F(EmissiveLightsOption, AutomaticIsOnWhereNothingElseLights) {
-    EXPECT_EQ(lights("glow.glb", "--rig none"), Counts(6, 0));
+    EXPECT_EQ(lights("glow.glb", "--rig none"), LightCounts(6, 0));
     EXPECT_TRUE(contains(line_,
                          "\nglow    (automatic) 12 triangles of 1 glowing meshes are 6 "
                          "lights, 6 of them rectangles"))
         << line_;
-    EXPECT_EQ(lights("glow.glb", "--lights 0"), Counts(6, 0));
+    EXPECT_EQ(lights("glow.glb", "--lights 0"), LightCounts(6, 0));
     EXPECT_EQ(lights("glow.glb", "").first, 0) << "a studio";
     EXPECT_EQ(lights("glow.glb", "--lights 20").first, 0);
-    EXPECT_EQ(lights("glow.glb", "--environment sky --environment-lights 2"), Counts(0, 2));
-    EXPECT_EQ(lights("lamp.glb", ""), Counts(0, 1));
-    EXPECT_EQ(lights("dark.glb", "--rig none"), Counts(0, 0));
+    EXPECT_EQ(lights("glow.glb", "--environment sky --environment-lights 2"), LightCounts(0, 2));
+    EXPECT_EQ(lights("lamp.glb", ""), LightCounts(0, 1));
+    EXPECT_EQ(lights("dark.glb", "--rig none"), LightCounts(0, 0));
     EXPECT_FALSE(contains(line_, "glow")) << line_;
 }
 
 TEST_F(EmissiveLightsOption, AutomaticIsOffWhereLightsWithASizeAreRefused) {
     for (const char* more : {"--shadows exact", "--shading blinn-phong"}) {
-        EXPECT_EQ(lights("glow.glb", std::string("--rig none ") + more), Counts(0, 0)) << more;
+        EXPECT_EQ(lights("glow.glb", std::string("--rig none ") + more), LightCounts(0, 0)) << more;
     }
-    EXPECT_EQ(lights("glow.glb", "--rig none --shadows sampled"), Counts(6, 0));
+    EXPECT_EQ(lights("glow.glb", "--rig none --shadows sampled"), LightCounts(6, 0));
 }
 
 TEST_F(EmissiveLightsOption, OnAndOffAreMeantAsSaid) {
-    EXPECT_EQ(lights("glow.glb", "--emissive-lights off --rig none"), Counts(0, 0));
-    EXPECT_EQ(lights("lamp.glb", "--emissive-lights on"), Counts(6, 1));
+    EXPECT_EQ(lights("glow.glb", "--emissive-lights off --rig none"), LightCounts(0, 0));
+    EXPECT_EQ(lights("lamp.glb", "--emissive-lights on"), LightCounts(6, 1));
     EXPECT_TRUE(contains(line_, "\nglow    12 triangles")) << line_;
     EXPECT_TRUE(contains(line_, "1 of the scene's own lights")) << line_;
-    EXPECT_EQ(lights("glow.glb", "--emissive-lights on --rig studio"), Counts(6, 5));
+    EXPECT_EQ(lights("glow.glb", "--emissive-lights on --rig studio"), LightCounts(6, 5));
     for (const char* more : {"--shadows exact", "--shading blinn-phong"}) {
         lights("glow.glb", std::string("--emissive-lights on --rig none ") + more);
         RenderSettings settings = small_settings(16, 16, 0);
@@ -111,7 +111,7 @@ TEST_F(EmissiveLightsOption, ManyTakeNoTree) {
         scene.instances.push_back({1, place});
     }
     write_scene(scene, folder_ / "many.glb");
-    EXPECT_EQ(lights("many.glb", "--rig none"), Counts(360, 0));
+    EXPECT_EQ(lights("many.glb", "--rig none"), LightCounts(360, 0));
     EXPECT_NE(options_.settings.tails, Tails::tree);
     EXPECT_TRUE(contains(line_, "360 lights without a range end where")) << line_;
 }

@@ -53,10 +53,6 @@ RenderSettings profile_settings(Shading shading = Shading::pbr) {
     return settings;
 }
 
-double largest(const std::vector<float>& values) {
-    return *std::max_element(values.begin(), values.end());
-}
-
 TEST(LightProfiles, ListsChangeNoBitInAnyMode) {
     const Scene scene = scene_with_profiles(false);
     const std::pair<Shadows, Tails> modes[] = {{Shadows::off, Tails::exact},
