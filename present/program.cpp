@@ -16,6 +16,7 @@
 #include "present/commands/export.h"
 #include "present/commands/info.h"
 #include "present/commands/merge/merge.h"
+#include "present/commands/photometry/photometry.h"
 #include "present/commands/render.h"
 #include "present/commands/report.h"
 #include "present/commands/view.h"
@@ -93,6 +94,7 @@ Program::Program() : app_(kMeaning, "kilolux") {
     add_report_command(*this);
     add_certify_command(*this);
     add_info_command(*this);
+    add_photometry_command(*this);
     add_export_command(*this);
     add_assemble_command(*this);
     add_merge_command(*this);

@@ -22,6 +22,7 @@ set(allowed_host/measure/reference ${measured} host/measure/metrics host/measure
 set(allowed_host/measure/roofline ${measured} host/interop host/measure/metrics host/measure/roofline)
 set(allowed_host/measure/bench ${measured} raster host/interop host/measure/metrics host/measure/reference host/measure/roofline
     host/measure/bench)
+set(allowed_host/measure/photometry ${measured} host/measure/metrics host/measure/reference host/measure/photometry)
 set(allowed_host/measure/report ${measured} host/measure)
 set(allowed_host/certify/synthetic ${allowed_host/lighting} host/certify/synthetic)
 set(allowed_host/certify ${allowed_host/render} host/measure host/certify)

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "host/scene/lights/photometric_web.h"
+#include "host/scene/lights/photometry/photometric_web.h"
 
 namespace kilolux {
 

@@ -42,15 +42,25 @@ Json light_counts(const Scene& scene, const LightOptions& generated) {
     return out;
 }
 
+// A web's flux beside what its file says of it, where it does.
+Json profile_json(const PhotometricWeb& web) {
+    const double flux = lumens(web);
+    Json out{{"name", web.name}, {"peak_cd", web.peak}, {"lumens", flux}};
+    if (web.stated_lumens) {
+        out["stated_lumens"] = *web.stated_lumens;
+        out["difference_percent"] = 100.0 * (flux / *web.stated_lumens - 1.0);
+    }
+    out["down_share"] = lumens(web, 90.0) / flux;
+    if (web.stated_down_share) out["stated_down_share"] = *web.stated_down_share;
+    out["table_error"] = web.table_error;
+    return out;
+}
+
 Json profiles_json(const Scene& scene) {
     Json out = Json::array();
     for (std::size_t i = 0; i < scene.webs.size(); ++i) {
-        const PhotometricWeb& web = scene.webs[i];
-        out.push_back({{"name", web.name},
-                       {"lights", std::ranges::count(scene.aimed_profiles, i, &SceneProfile::web)},
-                       {"peak_cd", web.peak},
-                       {"lumens", lumens(web)},
-                       {"table_error", web.table_error}});
+        out.push_back(profile_json(scene.webs[i]));
+        out.back()["lights"] = std::ranges::count(scene.aimed_profiles, i, &SceneProfile::web);
     }
     return out;
 }
@@ -148,13 +158,25 @@ std::string clip_line(const Json& clip) {
 }
 
 std::string profile_line(const Json& profile) {
-    return fmt::format("'{}': peak {:.6g} cd, {:.6g} lm, {} lights",
-                       shown_uri(profile["name"].get<std::string>()),
-                       profile["peak_cd"].get<double>(), profile["lumens"].get<double>(),
-                       profile["lights"].get<int>());
+    const auto stated = [&](const char* name, auto&& text) {
+        return profile.contains(name) ? text(profile[name].get<double>()) : std::string();
+    };
+    return fmt::format(
+        "'{}': peak {:.6g} cd, {:.6g} lm{}, {:.4g} % of it down{}, {} lights",
+        shown_uri(profile["name"].get<std::string>()), profile["peak_cd"].get<double>(),
+        profile["lumens"].get<double>(),
+        stated("stated_lumens",
+               [&](double value) {
+                   return fmt::format(" (file: {:.6g} lm, {:+.3g} %)", value,
+                                      profile["difference_percent"].get<double>());
+               }),
+        100.0 * profile["down_share"].get<double>(),
+        stated("stated_down_share",
+               [](double value) { return fmt::format(" (file: {:.4g} %)", 100.0 * value); }),
+        profile["lights"].get<int>());
 }
 
-// A feature's cost, a device, a clip or an IES file in one line.
+// A feature's cost, a device, a clip or a photometric file in one line.
 std::string object_line(const Json& entry) {
     if (entry.contains("lumens")) return profile_line(entry);
     if (entry.contains("length_s")) return clip_line(entry);

@@ -20,8 +20,8 @@ bool fuzz_load_scene(FuzzInput input);
 /// rest is a configuration file. True if they are valid.
 bool fuzz_options(FuzzInput input);
 
-/// Reads the bytes as an IES file; an Error must be one line that names the file. True if it is
-/// one.
+/// Reads the bytes as a photometric file, LM-63 or EULUMDAT; an Error must be one line that names
+/// the file. True if it is one.
 bool fuzz_ies(FuzzInput input);
 
 /// Inputs to start from.

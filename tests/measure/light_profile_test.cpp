@@ -7,7 +7,7 @@
 #include "host/certify/synthetic/run_probe.h"
 #include "host/gpu/buffer.h"
 #include "host/picture/web_in_view.h"
-#include "host/scene/lights/ies_file.h"
+#include "host/scene/lights/photometry/photometry_file.h"
 #include "tests/support/ies_text.h"
 #include "tests/support/test_gpu.h"
 

@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "host/base/error.h"
-#include "host/scene/lights/ies_file.h"
-#include "host/scene/lights/photometric_web.h"
+#include "host/scene/lights/photometry/photometric_web.h"
+#include "host/scene/lights/photometry/photometry_file.h"
 #include "tests/support/ies_text.h"
 
 namespace kilolux {
@@ -149,12 +149,108 @@ TEST(IesFile, TheSphereHasTheLumensOfTheWeb) {
     EXPECT_NEAR(sum / lumens(web), 1.0, 1e-4);
 }
 
+// A beam by the parts of its unit direction: 2 as wide to the right as upwards, and lopsided.
+double beam(double up, double right, double ahead) {
+    return 100.0 * std::exp(-8.0 * up * up - 2.0 * right * right) * (1.0 + 0.3 * up - 0.2 * right) *
+           std::max(ahead, 0.0);
+}
+
+// The beam as a grid of type A or B, by the relations of the systems (CIE 121): with gamma from the
+// light's direction and C from up to the right, tan B = cos C tan gamma and sin beta = sin C sin
+// gamma, where B is vertical and beta horizontal; type A has both swapped.
+IesText pole_beam(int type, double first, double step) {
+    IesText ies;
+    ies.type = type;
+    ies.vertical = ies.horizontal =
+        angle_steps(first, 90, static_cast<int>(std::lround((90.0 - first) / step)));
+    ies.candela = [type](double v, double h) {
+        const double r = std::numbers::pi / 180.0;
+        if (type == 2) {
+            return beam(std::cos(h * r) * std::sin(v * r), std::sin(h * r),
+                        std::cos(h * r) * std::cos(v * r));
+        }
+        return beam(std::sin(v * r), std::cos(v * r) * std::sin(h * r),
+                    std::cos(v * r) * std::cos(h * r));
+    };
+    return ies;
+}
+
+TEST(IesFile, TypesAAndBAreAimedAtVerticalAngle0) {
+    for (const int type : {2, 3}) {
+        const PhotometricWeb web = web_of(pole_beam(type, -90, 2.5));
+        EXPECT_EQ(web.vertical.back(), 90.0);
+        EXPECT_EQ(web.horizontal.back(), 360.0);
+        EXPECT_NEAR(candela_at(web, 0, 123), 100.0, 1e-9);
+        double largest = 0.0;
+        for (double gamma = 0.0; gamma <= 90.0; gamma += 3.1) {
+            for (double c = 0.0; c < 360.0; c += 7.3) {
+                const double r = std::numbers::pi / 180.0;
+                const double exact =
+                    beam(std::sin(gamma * r) * std::cos(c * r),
+                         std::sin(gamma * r) * std::sin(c * r), std::cos(gamma * r));
+                largest = std::max(largest, std::abs(candela_at(web, gamma, c) - exact));
+            }
+        }
+        EXPECT_LE(largest, 0.5) << type;  // bilinear in steps of 2.5 degrees
+        // The grid's slope changes at its angles by the beam's curvature, 16 / rad^2, times 2.5
+        // degrees; steps of half a degree miss a quarter of a degree of that at most: 1.5e-3.
+        EXPECT_LE(web.table_error, 2e-3) << type;
+        EXPECT_GT(web.table_error, 0.0) << type;
+    }
+}
+
+// A cosine emitter of 1000 lm, which types A and B need not know of.
+TEST(IesFile, TypesAAndBHaveTheFlux) {
+    for (const int type : {2, 3}) {
+        IesText ies = pole_beam(type, 0, 1.0);
+        ies.candela = [](double v, double h) {
+            const double r = std::numbers::pi / 180.0;
+            return 1000.0 / std::numbers::pi * std::cos(v * r) * std::cos(h * r);
+        };
+        EXPECT_NEAR(lumens(web_of(ies)), 1000.0, 0.3) << type;
+    }
+}
+
+// A grid that starts at 0 is the whole one of a symmetric beam; beyond a narrow one it is dark.
+TEST(IesFile, TypesAAndBAreMirroredAndMayBeNarrow) {
+    const auto even = [](double v, double h) { return 200.0 - std::abs(v) - 0.5 * std::abs(h); };
+    for (const int type : {2, 3}) {
+        IesText whole{.vertical = angle_steps(-90, 90, 36), .horizontal = angle_steps(-90, 90, 36)};
+        whole.candela = even;
+        whole.type = type;
+        IesText part = whole;
+        part.vertical = part.horizontal = angle_steps(0, 90, 18);
+        EXPECT_EQ(web_of(part).candela, web_of(whole).candela);
+        IesText narrow = whole;
+        narrow.vertical = narrow.horizontal = angle_steps(-10, 10, 4);
+        const PhotometricWeb web = web_of(narrow);
+        EXPECT_NEAR(candela_at(web, 9, 0), 191.0, 1.0);
+        EXPECT_NEAR(candela_at(web, 9, 90), 195.5, 1.0);
+        EXPECT_EQ(candela_at(web, 20, 45), 0.0);
+    }
+}
+
+// Lamps times their lumens times the ballast's factors; -1 says that there are none.
+TEST(IesFile, LumensOfTheLampsAreStated) {
+    std::string text = ies_text({});
+    EXPECT_FALSE(read_photometric_web(text, "").stated_lumens.has_value());
+    text.replace(text.find("1 -1 "), 5, "2 600 ");
+    text.replace(text.find("1 1 35"), 6, "0.9 1 35");
+    EXPECT_DOUBLE_EQ(read_photometric_web(text, "").stated_lumens.value(), 1080.0);
+}
+
 TEST(IesFile, WhatCannotBeUsedIsRefusedInALine) {
-    EXPECT_EQ(refusal(""), "x.ies: line 1: there is no line TILT=, so this is no IES file (LM-63)");
+    EXPECT_EQ(
+        refusal(""),
+        "x.ies: line 1: there is no line TILT=, so this is no IES file (LM-63); nor are lines 2 "
+        "and 3 numbers, so it is no EULUMDAT file");
     EXPECT_NE(refusal("TILT=lamp.tlt\n").find("TILT=lamp.tlt asks for another file"),
               std::string::npos);
-    expect_refused({.type = 2}, "photometry of type B is not read, only type C (1): convert");
-    expect_refused({.type = 3}, "photometry of type A");
+    expect_refused({.type = 2}, "horizontal angles are from 0 to 0, must be two or more");
+    expect_refused({.vertical = {5, 90}, .horizontal = {-90, 90}, .type = 3},
+                   "vertical angles are from 5 to 90, must be two or more from 0 or below");
+    expect_refused({.vertical = {-90, 90}, .horizontal = {-90, 100}, .type = 2},
+                   "horizontal angles are from -90 to 100");
     expect_refused({.type = 4}, "photometric type is 4");
     expect_refused({.vertical = {0, 45, 85}}, "vertical angles are from 0 to 85");
     expect_refused({.vertical = {0, 90, 45}}, "vertical angles must rise, 45 follows 90");

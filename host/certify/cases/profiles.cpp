@@ -8,7 +8,7 @@
 #include "host/measure/reference/decoded_samples.h"
 #include "host/render/renderer.h"
 #include "host/scene/generated/scenes.h"
-#include "host/scene/lights/ies_file.h"
+#include "host/scene/lights/photometry/photometry_file.h"
 
 namespace kilolux {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// EXT_lights_ies: IES files, and the nodes that carry them.
+// EXT_lights_ies: photometric files, and the nodes that carry them.
 #include "host/scene/gltf/light_profiles.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 #include "host/scene/gltf/extensions.h"
 #include "host/scene/gltf/lights_cameras.h"
-#include "host/scene/lights/ies_file.h"
+#include "host/scene/lights/photometry/photometry_file.h"
 
 namespace kilolux {
 namespace {
@@ -28,7 +28,7 @@ std::string read_text(const GltfDocument& document, const tinygltf::Value& light
     const FileBytes file = read_source(document, uri, view, where);
     const auto bytes = file.bytes;
     if (bytes.size() > kMostTextBytes) {
-        document.fail(where, "the IES file has {} bytes, at most {} are read", bytes.size(),
+        document.fail(where, "the photometric file has {} bytes, at most {} are read", bytes.size(),
                       kMostTextBytes);
     }
     return {bytes.begin(), bytes.end()};
@@ -48,8 +48,8 @@ PhotometricWeb read_profile(const GltfDocument& document, const tinygltf::Value&
     constexpr double kStated = 1e-3;  // of the peak
     if (web.table_error > kStated) {
         document.leave_out(
-            fmt::format("{}: its angles are finer than 0.1 x 0.5 degrees: up to {:.1g} "
-                        "of its peak is lost",
+            fmt::format("{}: its angles are finer than 0.1 x 0.5 degrees, or of type A or B: up to "
+                        "{:.1g} of its peak is lost",
                         shown, web.table_error));
     }
     return web;

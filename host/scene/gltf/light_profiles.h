@@ -5,7 +5,8 @@
 
 namespace kilolux {
 
-/// The IES files of EXT_lights_ies, in the file's order. Throws Error for one that cannot be used.
+/// The photometric files of EXT_lights_ies, in the file's order. Throws Error for one that cannot
+/// be used.
 std::vector<PhotometricWeb> read_profiles(const GltfDocument& document);
 
 /// Adds the lights of EXT_lights_ies at their nodes, with the scene's webs. Unusable values are

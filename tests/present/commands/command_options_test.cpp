@@ -10,6 +10,7 @@
 #include "present/commands/export.h"
 #include "present/commands/info.h"
 #include "present/commands/merge/merge.h"
+#include "present/commands/photometry/photometry.h"
 #include "present/commands/render.h"
 #include "present/commands/report.h"
 #include "present/commands/view.h"
@@ -241,6 +242,19 @@ void walk_export() {
          {{"--background", kRefused}, {"--output", "a.glb"}});
 }
 
+void walk_photometry() {
+    walk(add_photometry_options,
+         [](const PhotometryOptions& o) {
+             const auto& [shared, points, plane, exact_points, output, json] = o;
+             return std::tie(shared, points, plane, exact_points, output, json);
+         },
+         {{"--background", kRefused},
+          {"--plane", "0,0,0,4,0,0,0,0,-3,8,6"},
+          {"--points", "desk points.csv"},
+          {"--exact-points", "7"},
+          {"--output", "a.csv"}});
+}
+
 void walk_assemble() {
     walk(add_assemble_options,
          [](const AssembleOptions& o) {
@@ -261,9 +275,10 @@ void walk_merge() {
 
 TEST(CommandOptions, ChangeThemselvesAlone) {
     const std::map<std::string, void (*)()> walks = {
-        {"render", walk_render}, {"view", walk_view},         {"bench", walk_bench},
-        {"report", walk_report}, {"certify", walk_certify},   {"info", walk_info},
-        {"export", walk_export}, {"assemble", walk_assemble}, {"merge", walk_merge}};
+        {"render", walk_render},        {"view", walk_view},         {"bench", walk_bench},
+        {"report", walk_report},        {"certify", walk_certify},   {"info", walk_info},
+        {"export", walk_export},        {"assemble", walk_assemble}, {"merge", walk_merge},
+        {"photometry", walk_photometry}};
     const Program program;
     for (const CLI::App* command : program.app().get_subcommands({})) {
         const std::string& name = command->get_name();

@@ -6,7 +6,7 @@
 
 #include "host/measure/metrics/metrics.h"
 #include "host/measure/reference/decoded_samples.h"
-#include "host/scene/lights/ies_file.h"
+#include "host/scene/lights/photometry/photometry_file.h"
 #include "tests/support/ies_text.h"
 #include "tests/support/render_fixture.h"
 

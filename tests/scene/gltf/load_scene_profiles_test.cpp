@@ -4,6 +4,7 @@
 
 #include "tests/support/gltf_builder.h"
 #include "tests/support/ies_text.h"
+#include "tests/support/ldt_text.h"
 #include "tests/support/messages.h"
 
 namespace kilolux {
@@ -69,6 +70,14 @@ TEST(LoadSceneProfiles, TurnWithTheirNode) {
     const Scene mirrored =
         load_beside(file_with(kFile, {{"scale", {1, -1, 1}}}, use), ies_text({}));
     EXPECT_TRUE(mirrored.aimed_profiles[0].mirrored);
+}
+
+// The file's content tells EULUMDAT from LM-63, whatever its name.
+TEST(LoadSceneProfiles, FilesMayBeEulumdat) {
+    const Scene scene =
+        load_beside(file_with(kFile, json::object(), {{"light", 0}}), european(ldt_text({})));
+    EXPECT_EQ(scene.webs[0].peak, 200.0);
+    EXPECT_EQ(scene.lights[0].intensity, glm::vec3(200.0f));
 }
 
 TEST(LoadSceneProfiles, ANodeWithoutAxesGivesALightThatIsRejected) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/lights/photometric_web.h"
+#include "host/scene/lights/photometry/photometric_web.h"
 
 #include <fmt/core.h>
 
@@ -47,15 +47,17 @@ int steps_of(const std::vector<double>& angles, int most) {
 
 double interpolated(double a, double b, double part) { return a + (b - a) * part; }
 
-// The integral of candela from a vertical angle to the next times sin, of one horizontal angle.
-double ring(const PhotometricWeb& web, std::size_t column) {
+// The integral of candela times sin over vertical angles up to one [deg], of one horizontal angle.
+double ring(const PhotometricWeb& web, std::size_t column, double up_to) {
     double sum = 0.0;
     const std::size_t rows = web.vertical.size();
-    for (std::size_t i = 0; i + 1 < rows; ++i) {
+    for (std::size_t i = 0; i + 1 < rows && web.vertical[i] < up_to; ++i) {
+        const double end = std::min(web.vertical[i + 1], up_to);
+        const double part = (end - web.vertical[i]) / (web.vertical[i + 1] - web.vertical[i]);
         const double a = web.vertical[i] * kRadian;
-        const double b = web.vertical[i + 1] * kRadian;
+        const double b = end * kRadian;
         const double from = web.candela[column * rows + i];
-        const double to = web.candela[column * rows + i + 1];
+        const double to = interpolated(from, web.candela[column * rows + i + 1], part);
         const double slope = (to - from) / (b - a);
         sum += from * std::cos(a) - to * std::cos(b) + slope * (std::sin(b) - std::sin(a));
     }
@@ -107,14 +109,29 @@ double candela_at(const PhotometricWeb& web, double vertical, double horizontal)
     return interpolated(at(h.first), at(h.first + 1), h.part);
 }
 
-double lumens(const PhotometricWeb& web) {
-    if (web.horizontal.size() == 1) return 2.0 * std::numbers::pi * ring(web, 0);
+double lumens(const PhotometricWeb& web, double up_to) {
+    if (web.horizontal.size() == 1) return 2.0 * std::numbers::pi * ring(web, 0, up_to);
     double sum = 0.0;
     for (std::size_t h = 0; h + 1 < web.horizontal.size(); ++h) {
         const double step = (web.horizontal[h + 1] - web.horizontal[h]) * kRadian;
-        sum += 0.5 * step * (ring(web, h) + ring(web, h + 1));
+        sum += 0.5 * step * (ring(web, h, up_to) + ring(web, h + 1, up_to));
     }
     return sum;
+}
+
+std::string lm63_text(const PhotometricWeb& web) {
+    std::string out =
+        fmt::format("IESNA:LM-63-2002\nTILT=NONE\n1 {} 1 {} {} 1 2 0 0 0\n1 1 0\n",
+                    web.stated_lumens.value_or(-1.0), web.vertical.size(), web.horizontal.size());
+    const auto add_lines = [&](const std::vector<double>& values, std::size_t in_line) {
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            out += fmt::format("{}{}", values[i], (i + 1) % in_line == 0 ? "\n" : " ");
+        }
+    };
+    add_lines(web.vertical, web.vertical.size());
+    add_lines(web.horizontal, web.horizontal.size());
+    add_lines(web.candela, web.vertical.size());
+    return out;
 }
 
 void make_profile_table(PhotometricWeb& web) {

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/measure/photometry/exact_illuminance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "host/measure/metrics/compensated_sum.h"
+#include "host/scene/lights/environment.h"
+#include "host/scene/lights/light_kinds.h"
+#include "host/scene/lights/light_region.h"
+#include "host/scene/lights/light_shape.h"
+
+namespace kilolux {
+namespace {
+
+// The illuminance of a light with a place, without the window of its range [lx].
+double unbounded_lux(const ReferenceLight& light, const MeasuringPoint& point,
+                     const ReferenceOptions& unbounded) {
+    const double candela = luminance(light.intensity);
+    if (light.shape) {
+        AreaShape shape = *light.shape;
+        shape.center = light.position - point.position;
+        return candela * light.inverse_area * reference_cosine(shape, point.normal).value;
+    }
+    const Incidence in = incidence(light, point.position, unbounded);
+    return candela * in.attenuation * std::max(glm::dot(point.normal, in.to_light), 0.0);
+}
+
+void keep_largest(std::array<LightLux, 3>& largest, LightLux next) {
+    for (LightLux& kept : largest) {
+        if (next.lux > kept.lux) std::swap(next, kept);
+    }
+}
+
+// The least and the greatest distance of a box's points from a point.
+struct Distances {
+    double least = 0.0, greatest = 0.0;
+};
+
+Distances distances_to(const Box& box, const glm::dvec3& p) {
+    const glm::dvec3 outside = glm::max(glm::max(box.min - p, p - box.max), glm::dvec3(0.0));
+    const glm::dvec3 across = glm::max(glm::abs(box.min - p), glm::abs(box.max - p));
+    return {glm::length(outside), glm::length(across)};
+}
+
+// A light whose range cuts something off.
+struct BoundedLight {
+    glm::dvec3 position{0.0};
+    double candela = 0.0, range = 0.0;
+    double radius = 0.0;                                    // of its size [m]
+    double most = std::numeric_limits<double>::infinity();  // of its illuminance [lx]
+};
+
+// The most that the range cuts off at these distances. (d/range)^4 / d^2 grows up to the range, 1 /
+// d^2 falls beyond it.
+double largest_cut_off(const BoundedLight& light, const Distances& d) {
+    const double at = d.greatest < light.range ? d.greatest : std::max(d.least, light.range);
+    const double part = std::min(at / light.range, 1.0);
+    const double nearest = at - light.radius;
+    const double lux =
+        nearest > 0.0 ? std::min(light.candela / (nearest * nearest), light.most) : light.most;
+    return part * part * part * part * lux;
+}
+
+std::vector<BoundedLight> bounded_lights(const Scene& scene) {
+    std::vector<BoundedLight> out;
+    for (const SceneLight& light : scene.lights) {
+        if (!kind_of(light).is_placed || !(light.range > 0.0f)) continue;
+        BoundedLight& next = out.emplace_back();
+        next.position = light.position;
+        next.candela = luminance(glm::dvec3(light.intensity));
+        next.range = light.range;
+        if (!is_area_light(light)) continue;
+        next.radius = bounding_radius(light);
+        next.most = std::numbers::pi * next.candela / seen_area(light);
+    }
+    return out;
+}
+
+}  // namespace
+
+ExactLighting::ExactLighting(const Scene& scene)
+    : lights_(reference_lights(scene.lights, Camera(), &scene)) {
+    options_.light_d_min = light_d_min(scene);
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        (kind_of(scene.lights[i]).is_placed ? placed_ : directional_).push_back(i);
+    }
+}
+
+ExactIlluminance ExactLighting::at(const MeasuringPoint& point) const {
+    ExactIlluminance out;
+    CompensatedSum lux, cut_off;
+    ReferenceOptions unbounded = options_;
+    unbounded.windowed = false;
+    const auto add = [&](std::size_t light, double whole, double window) {
+        if (whole == 0.0) return;
+        lux.add(whole * window);
+        cut_off.add(whole * (1.0 - window));
+        keep_largest(out.largest, {light, whole * window});
+    };
+    for (std::size_t i = 0; i < lights_.directional.size(); ++i) {
+        const ReferenceDirectionalLight& light = lights_.directional[i];
+        const double cosine = std::max(glm::dot(point.normal, light.to_light), 0.0);
+        add(directional_[i], luminance(light.illuminance) * cosine, 1.0);
+    }
+    for (std::size_t i = 0; i < lights_.lights.size(); ++i) {
+        const ReferenceLight& light = lights_.lights[i];
+        const double window = window_at(light, point.position, options_);
+        add(placed_[i], unbounded_lux(light, point, unbounded), window);
+    }
+    out.lux = lux.value();
+    out.cut_off = cut_off.value();
+    return out;
+}
+
+double ExactLighting::work() const {
+    constexpr double kAreaLight = 100.0;  // about; of the quadrature
+    double out = 1.0 + static_cast<double>(lights_.directional.size());
+    for (const ReferenceLight& light : lights_.lights) out += light.shape ? kAreaLight : 1.0;
+    return out;
+}
+
+std::vector<ExactIlluminance> exact_illuminance(const ExactLighting& lighting,
+                                                std::span<const MeasuringPoint> points,
+                                                std::span<const std::size_t> which,
+                                                const OnProgress& progress) {
+    constexpr std::size_t kChunk = 64;  // points of a task
+    std::vector<ExactIlluminance> out(which.size());
+    const auto chunks = static_cast<int>((which.size() + kChunk - 1) / kChunk);
+    parallel_rows(
+        chunks,
+        [&](int chunk) {
+            const std::size_t first = static_cast<std::size_t>(chunk) * kChunk;
+            for (std::size_t i = first; i < std::min(first + kChunk, which.size()); ++i) {
+                out[i] = lighting.at(points[which[i]]);
+            }
+        },
+        progress);
+    return out;
+}
+
+std::vector<double> cut_off_bounds(const Scene& scene, std::span<const MeasuringPoint> points,
+                                   std::span<const std::uint32_t> order) {
+    std::vector<double> out(points.size(), 0.0);
+    const std::vector<BoundedLight> lights = bounded_lights(scene);
+    if (lights.empty()) return out;
+    const auto groups = static_cast<int>((order.size() + kGroupPoints - 1) / kGroupPoints);
+    parallel_rows(groups, [&](int group) {
+        const std::size_t first = static_cast<std::size_t>(group) * kGroupPoints;
+        const auto mine = order.subspan(first, std::min(kGroupPoints, order.size() - first));
+        Box box;
+        for (const std::uint32_t i : mine) box.add(points[i].position);
+        double sum = 0.0;
+        for (const BoundedLight& light : lights) {
+            sum += largest_cut_off(light, distances_to(box, light.position));
+        }
+        for (const std::uint32_t i : mine) out[i] = sum;
+    });
+    return out;
+}
+
+}  // namespace kilolux

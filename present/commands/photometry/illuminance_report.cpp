@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/commands/photometry/illuminance_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/measure/metrics/compensated_sum.h"
+#include "host/scene/lights/light_kinds.h"
+
+namespace kilolux {
+namespace {
+
+using LuxJson = nlohmann::ordered_json;
+
+double lux_of(const Illuminances& result, std::size_t i) {
+    const ExactIlluminance* exact = result.exact_of(i);
+    return exact != nullptr ? exact->lux : result.kernels[i];
+}
+
+// Relative to float64's value; none where that is 0.
+Cell kernel_error(const Illuminances& result, std::size_t i) {
+    const ExactIlluminance* exact = result.exact_of(i);
+    if (exact == nullptr || exact->lux == 0.0) return {};
+    return result.kernels[i] / exact->lux - 1.0;
+}
+
+// "17 point", or "17 point 'lamp'" with the name of its photometric file.
+std::string light_name(const Scene& scene, std::size_t number) {
+    const SceneLight& light = scene.lights[number];
+    std::string out = fmt::format("{} {}", number, kind_of(light).name);
+    if (light.profile < 0) return out;
+    const SceneProfile& profile = scene.aimed_profiles[static_cast<std::size_t>(light.profile)];
+    const std::string& web = scene.webs[profile.web].name;
+    return web.empty() ? out : out + " '" + web + "'";
+}
+
+struct LuxSummary {
+    double least = 0.0, mean = 0.0, most = 0.0;
+    double uniformity() const { return mean > 0.0 ? least / mean : 0.0; }
+};
+
+LuxSummary summary_of(const Illuminances& result) {
+    LuxSummary out{std::numeric_limits<double>::infinity(), 0.0, 0.0};
+    CompensatedSum sum;
+    for (std::size_t i = 0; i < result.points.size(); ++i) {
+        const double lux = lux_of(result, i);
+        sum.add(lux);
+        out.least = std::min(out.least, lux);
+        out.most = std::max(out.most, lux);
+    }
+    out.mean = sum.value() / static_cast<double>(result.points.size());
+    return out;
+}
+
+// The kernels against float64 on the points that have both.
+struct KernelErrors {
+    double relative = 0.0;       // the largest, of points that float64 lights
+    double lux = 0.0;            // the largest difference [lx]
+    std::size_t edge_cases = 0;  // lit by one of both alone: on the edge of a cone or a range
+};
+
+KernelErrors errors_of(const Illuminances& result) {
+    KernelErrors out;
+    for (std::size_t k = 0; k < result.exact.size(); ++k) {
+        const double exact = result.exact[k].lux;
+        const double found = result.kernels[result.exact_places[k]];
+        out.lux = std::max(out.lux, std::abs(found - exact));
+        out.edge_cases += (found > 0.0) != (exact > 0.0);
+        if (found > 0.0 && exact > 0.0) {
+            out.relative = std::max(out.relative, std::abs(found / exact - 1.0));
+        }
+    }
+    return out;
+}
+
+double largest_of(const std::vector<double>& values) {
+    return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
+}
+
+LuxJson summary_json(const Illuminances& result, const Scene& scene) {
+    const LuxSummary lux = summary_of(result);
+    const KernelErrors errors = errors_of(result);
+    LuxJson out{{"points", result.points.size()},
+                {"lights", scene.lights.size()},
+                {"minimum_lx", lux.least},
+                {"mean_lx", lux.mean},
+                {"maximum_lx", lux.most},
+                {"uniformity", lux.uniformity()},
+                {"cut_off_by_ranges_at_most_lx", largest_of(result.cut_off)},
+                {"ambient_apart_lx", result.ambient},
+                {"environment_apart_at_most_lx", largest_of(result.environment)}};
+    out["float64"] = {{"points", result.exact.size()},
+                      {"largest_relative_error_of_kernels", errors.relative},
+                      {"largest_error_of_kernels_lx", errors.lux},
+                      {"edge_cases", errors.edge_cases}};
+    out["model"] = "direct light; no shadows, no interreflection";
+    return out;
+}
+
+// Of points with a float64 value.
+void add_contributors(std::vector<Cell>& row, const ExactIlluminance* exact, const Scene& scene) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const bool is_there = exact != nullptr && exact->largest[k].lux > 0.0;
+        row.push_back(is_there ? Cell(light_name(scene, exact->largest[k].light)) : Cell());
+        row.push_back(is_there ? Cell(exact->largest[k].lux) : Cell());
+    }
+}
+
+std::vector<Cell> table_row(const Illuminances& result, const Scene& scene, std::size_t i) {
+    const MeasuringPoint& point = result.points[i];
+    const glm::dvec3 &p = point.position, &n = point.normal;
+    std::vector<Cell> row = {p.x, p.y, p.z, n.x, n.y, n.z, lux_of(result, i), result.kernels[i]};
+    row.push_back(kernel_error(result, i));
+    row.push_back(result.cut_off[i]);
+    if (!result.environment.empty()) row.push_back(result.environment[i]);
+    add_contributors(row, result.exact_of(i), scene);
+    return row;
+}
+
+Table lux_table_of(const Illuminances& result, const Scene& scene, std::size_t count) {
+    Table out{{"x [m]", "y [m]", "z [m]", "nx", "ny", "nz", "illuminance [lx]", "kernels [lx]",
+               "error of kernels", "cut off at most [lx]"},
+              {}};
+    if (!result.environment.empty()) out.columns.emplace_back("environment [lx]");
+    for (const char* place : {"1", "2", "3"}) {
+        out.columns.push_back(fmt::format("light {}", place));
+        out.columns.push_back(fmt::format("light {} [lx]", place));
+    }
+    for (std::size_t i = 0; i < count; ++i) out.rows.push_back(table_row(result, scene, i));
+    return out;
+}
+
+LuxJson point_json(const Illuminances& result, const Scene& scene, std::size_t i) {
+    const MeasuringPoint& point = result.points[i];
+    const glm::dvec3 &p = point.position, &n = point.normal;
+    LuxJson out{{"position", {p.x, p.y, p.z}},
+                {"normal", {n.x, n.y, n.z}},
+                {"illuminance_lx", lux_of(result, i)},
+                {"kernels_lx", result.kernels[i]},
+                {"cut_off_at_most_lx", result.cut_off[i]}};
+    if (!result.environment.empty()) out["environment_lx"] = result.environment[i];
+    const ExactIlluminance* exact = result.exact_of(i);
+    out["float64_lx"] = exact != nullptr ? LuxJson(exact->lux) : LuxJson();
+    out["largest"] = LuxJson::array();
+    if (exact == nullptr) return out;
+    for (const LightLux& part : exact->largest) {
+        if (part.lux <= 0.0) continue;
+        out["largest"].push_back(
+            {{"light", part.light}, {"name", light_name(scene, part.light)}, {"lux", part.lux}});
+    }
+    return out;
+}
+
+}  // namespace
+
+const ExactIlluminance* Illuminances::exact_of(std::size_t i) const {
+    const auto found = std::lower_bound(exact_places.begin(), exact_places.end(), i);
+    if (found == exact_places.end() || *found != i) return nullptr;
+    return &exact[static_cast<std::size_t>(found - exact_places.begin())];
+}
+
+Table illuminance_table(const Illuminances& result, const Scene& scene) {
+    return lux_table_of(result, scene, result.points.size());
+}
+
+LuxJson illuminance_json(const Illuminances& result, const Scene& scene) {
+    LuxJson out{{"summary", summary_json(result, scene)}, {"points", LuxJson::array()}};
+    for (std::size_t i = 0; i < result.points.size(); ++i) {
+        out["points"].push_back(point_json(result, scene, i));
+    }
+    return out;
+}
+
+std::string illuminance_text(const Illuminances& result, const Scene& scene) {
+    constexpr std::size_t kShown = 20;  // lines of the table
+    const LuxSummary lux = summary_of(result);
+    const KernelErrors errors = errors_of(result);
+    std::string out = fmt::format(
+        "points      {}, {} lights; direct light without shadows or interreflection\n"
+        "illuminance minimum {:.6g} lx, mean {:.6g} lx, maximum {:.6g} lx; uniformity (minimum / "
+        "mean) {:.4g}\n"
+        "float64     on {} points: kernels differ by {:.2g} relative, {:.2g} lx at most",
+        result.points.size(), scene.lights.size(), lux.least, lux.mean, lux.most, lux.uniformity(),
+        result.exact.size(), errors.relative, errors.lux);
+    if (errors.edge_cases > 0) {
+        out += fmt::format("; {} lie on the edge of a cone or a range", errors.edge_cases);
+    }
+    out += fmt::format("\nranges      cut off at most {:.4g} lx at a point\n",
+                       largest_of(result.cut_off));
+    if (result.ambient > 0.0) out += fmt::format("ambient     {:.6g} lx, apart\n", result.ambient);
+    if (!result.environment.empty()) {
+        out +=
+            fmt::format("environment {:.6g} lx at most, apart\n", largest_of(result.environment));
+    }
+    const std::size_t shown = std::min(kShown, result.points.size());
+    out += "\n" + to_markdown(lux_table_of(result, scene, shown), 6);
+    if (shown < result.points.size()) {
+        out += fmt::format("{} more points: -o FILE.csv or --json has all\n",
+                           result.points.size() - shown);
+    }
+    return out;
+}
+
+}  // namespace kilolux

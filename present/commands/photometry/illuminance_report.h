@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "host/measure/bench/table.h"
+#include "host/measure/photometry/exact_illuminance.h"
+#include "host/scene/scene.h"
+
+namespace kilolux {
+
+/// The illuminance of points by both ways [lx].
+struct Illuminances {
+    std::vector<MeasuringPoint> points;
+    std::vector<double> kernels;            // of lights, by the float32 kernels
+    std::vector<std::size_t> exact_places;  // numbers of the points that float64 computed, rising
+    std::vector<ExactIlluminance> exact;    // of these
+    std::vector<double> cut_off;      // at most, by ranges; float64's value where there is one
+    std::vector<double> environment;  // apart; empty: there is none
+    double ambient = 0.0;             // apart, the same for all points
+
+    /// float64's illuminance of point i where there is one, else null.
+    const ExactIlluminance* exact_of(std::size_t i) const;
+};
+
+/// A line a point: position, normal, illuminance, that of the kernels, their relative error, what
+/// ranges cut off, the environment's, and the three largest contributors.
+Table illuminance_table(const Illuminances& result, const Scene& scene);
+
+/// The document of --json and -o FILE.json: a summary, and a point each.
+nlohmann::ordered_json illuminance_json(const Illuminances& result, const Scene& scene);
+
+/// The summary, and the first lines of the table.
+std::string illuminance_text(const Illuminances& result, const Scene& scene);
+
+}  // namespace kilolux

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/commands/photometry/photometry.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <numbers>
+#include <utility>
+
+#include "host/base/error.h"
+#include "host/base/log.h"
+#include "host/base/system/atomic_write.h"
+#include "host/base/system/interrupt.h"
+#include "host/base/text.h"
+#include "host/measure/photometry/point_lighting.h"
+#include "host/scene/generated/scenes.h"
+#include "host/scene/lights/built_in_environments.h"
+#include "host/scene/lights/environment.h"
+#include "host/scene/lights/light_generator.h"
+#include "present/cli/option_builder.h"
+#include "present/cli/scene_choice.h"
+#include "present/cli/stats_json.h"
+#include "present/commands/photometry/illuminance_report.h"
+
+namespace kilolux {
+namespace {
+
+namespace fs = std::filesystem;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::string result_file(const std::string&, const std::string& text) {
+    const std::string extension = lower(fs::path(text).extension().string());
+    if (extension == ".csv" || extension == ".json") return text;
+    throw UsageError(
+        fmt::format("--output: '{}': result type '{}' is none of .csv, .json", text, extension));
+}
+
+// What would not be in the result, and what would be in it unasked.
+void check_photometry(PhotometryOptions& options) {
+    SharedOptions& shared = options.shared;
+    refuse_if(options.points.empty() == (options.plane.columns == 0),
+              "photometry: needs one of --points FILE.csv and --plane");
+    refuse_if(shared.settings.shadows != Shadows::off,
+              "--shadows: photometry has none; every light reaches every point");
+    Tails& tails = shared.settings.tails;
+    refuse_if(tails != Tails::automatic && tails != Tails::exact,
+              "--tails: in photometry lights without a range reach every point");
+    tails = Tails::exact;
+    const bool has_own_light = !is_generated_scene(shared.scene) || !shared.environment.empty();
+    if (shared.rig == Rig::automatic && !shared.lights_given && has_own_light) {
+        shared.rig = Rig::none;
+    }
+}
+
+// Leaves out lights that cannot be used.
+void keep_usable(std::vector<SceneLight>& lights, const std::string& scene) {
+    std::vector<SceneLight> ranged = lights;
+    fill_missing_ranges(ranged, Tails::exact);
+    std::vector<SceneLight> kept;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        if (is_usable(ranged[i], glm::dvec3(0.0))) kept.push_back(lights[i]);
+    }
+    if (kept.size() < lights.size()) {
+        warn(
+            fmt::format("{}: {} unusable lights are left out", scene, lights.size() - kept.size()));
+    }
+    lights = std::move(kept);
+}
+
+// The scene at its time with all of its lights, in the world.
+Scene lit_scene(SharedOptions& shared) {
+    Scene scene = open_scene(shared);
+    const Camera camera = choose_camera(shared, scene);
+    const auto generated = generate_lights(shared.settings.lights, scene, shared.time);
+    scene.lights.insert(scene.lights.end(), generated.begin(), generated.end());
+    for (SceneLight& light : scene.lights) {
+        light = placed_light(light, camera.world_from_view, camera.position);
+        light.follows_camera = false;
+    }
+    keep_usable(scene.lights, shared.scene);
+    return scene;
+}
+
+// The light of the environment's map on each point [lx], as that of directional lights.
+std::vector<double> environment_lux(const SharedOptions& shared, const std::string& environment,
+                                    const std::vector<MeasuringPoint>& points) {
+    if (environment.empty()) return {};
+    Scene around;
+    around.lights =
+        environment_lights(environment_of(environment, shared.settings.max_memory_bytes),
+                           static_cast<std::size_t>(shared.environment_lights));
+    const ExactLighting lighting(around);
+    std::vector<double> out(points.size());
+    parallel_rows(
+        static_cast<int>((points.size() + kGroupPoints - 1) / kGroupPoints), [&](int row) {
+            const std::size_t first = static_cast<std::size_t>(row) * kGroupPoints;
+            for (std::size_t i = first; i < std::min(first + kGroupPoints, points.size()); ++i) {
+                out[i] = lighting.at(points[i]).lux;
+            }
+        });
+    return out;
+}
+
+// Numbers of the points that float64 computes, evenly among all.
+std::vector<std::size_t> exact_places(const PhotometryOptions& options, std::size_t points,
+                                      double work) {
+    constexpr double kAutomaticWork = 3e7;  // about a second on two cores
+    const double automatic = std::max(1.0, kAutomaticWork / work);
+    const double asked =
+        options.exact_points ? static_cast<double>(*options.exact_points) : automatic;
+    const auto count = static_cast<std::size_t>(std::min(asked, static_cast<double>(points)));
+    std::vector<std::size_t> out;
+    for (std::size_t k = 0; k < count; ++k) out.push_back(k * points / count);
+    return out;
+}
+
+Illuminances measured(const PhotometryOptions& options, std::vector<MeasuringPoint> points,
+                      const Scene& scene, const std::string& environment) {
+    Illuminances out;
+    out.points = std::move(points);
+    const SharedOptions& shared = options.shared;
+    PointLighting kernels(scene, shared.settings);
+    auto start = std::chrono::steady_clock::now();
+    const std::vector<std::uint32_t> order = order_in_groups(out.points);
+    out.kernels = kernels.illuminance(out.points, order);
+    const double kernel_s = seconds_since(start);
+    check_interrupt();
+    start = std::chrono::steady_clock::now();
+    const ExactLighting exact(scene);
+    out.exact_places = exact_places(options, out.points.size(), exact.work());
+    out.exact =
+        exact_illuminance(exact, out.points, out.exact_places, [](double) { check_interrupt(); });
+    note(fmt::format("lit     {} points by {} in {:.2g} s, {} of them in float64 in {:.2g} s",
+                     out.points.size(), kernels.device().name, kernel_s, out.exact.size(),
+                     seconds_since(start)));
+    out.cut_off = cut_off_bounds(scene, out.points, order);
+    for (std::size_t k = 0; k < out.exact.size(); ++k) {
+        out.cut_off[out.exact_places[k]] = out.exact[k].cut_off;
+    }
+    out.environment = environment_lux(shared, environment, out.points);
+    // Radiance from everywhere arrives as pi times it.
+    if (shared.ambient_given) out.ambient = std::numbers::pi * double{shared.settings.ambient};
+    return out;
+}
+
+void run_photometry(PhotometryOptions& options) {
+    begin_command(options.shared);
+    check_photometry(options);
+    if (!options.output.empty()) check_can_write(options.output);
+    std::vector<MeasuringPoint> points =
+        options.points.empty() ? points_of(options.plane) : read_points(options.points);
+    // Its light is counted apart, not among the scene's.
+    const std::string environment = std::exchange(options.shared.environment, "");
+    const Scene scene = lit_scene(options.shared);
+    if (scene.lights.empty() && environment.empty()) {
+        throw Error(options.shared.scene + ": has no lights to measure; --lights N adds some");
+    }
+    const Illuminances result = measured(options, std::move(points), scene, environment);
+    if (options.output.extension() == ".json") {
+        write_json(options.output.string(), illuminance_json(result, scene));
+    } else if (!options.output.empty()) {
+        write_atomically(options.output, to_csv(illuminance_table(result, scene)));
+    }
+    const auto document = options.json ? illuminance_json(result, scene) : nlohmann::ordered_json();
+    print_result(options.json, document, illuminance_text(result, scene));
+    if (!options.output.empty()) note("wrote   " + options.output.string());
+}
+
+constexpr const char* kPhotometryExamples =
+    "  kilolux photometry street.glb --plane 0,0,40,7,0,20,5\n"
+    "  kilolux photometry hall.glb --points desks.csv -o desks_lux.csv\n"
+    "  kilolux photometry hall.glb --plane 0,3,0,4,0,0,0,-3,0,40,30 --json";
+
+}  // namespace
+
+void visit_settings(PhotometryOptions& options, const SettingVisitor& f) {
+    visit_settings(options.shared, f);
+    OptionBuilder(f, "Points and output")
+        .input_file(
+            {"--points", "FILE", "",
+             "CSV with a point a line: x,y,z,nx,ny,nz, position in metres and the normal of "
+             "the surface that is lit; a first line of names is left out"},
+            options.points)
+        .value({"--plane", "NUMBERS", "",
+                "X0,Z0,X1,Z1,Y,NX,NZ: the middles of NX x NZ cells of a horizontal plane at height "
+                "Y, facing up; or X,Y,Z,UX,UY,UZ,VX,VY,VZ,NU,NV: an origin and two edges, facing U "
+                "x V"},
+               options.plane, parse_plane)
+        .count({"--exact-points", "N", "a second's work",
+                "Points that float64 computes, too, evenly among all: their error of the kernels "
+                "and their largest contributors are known",
+                kNeither, "1"},
+               options.exact_points, {0, std::uint64_t{1} << 27})
+        .value({"--output,-o", "FILE", "", "All points: .csv or .json"}, options.output,
+               result_file)
+        .flag("--json", options.json, "JSON instead of text on standard output");
+}
+
+void add_photometry_options(CLI::App& command, PhotometryOptions& options) {
+    add_options(command, options);
+    leave_to_help_all(command, {"--renderer", "--resolution", "--samples", "--show", "--aov",
+                                "--gbuffer", "--shading", "--exposure", "--tonemap", "--bloom",
+                                "--shadows", "--shadow-rays", "--background", "--reflections"});
+}
+
+void add_photometry_command(Program& program) {
+    program.add_command("photometry", "Measure the illuminance of points, in lux",
+                        kPhotometryExamples, add_photometry_options, run_photometry);
+}
+
+}  // namespace kilolux
