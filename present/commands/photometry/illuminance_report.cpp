@@ -102,9 +102,12 @@ LuxJson summary_json(const Illuminances& result, const Scene& scene) {
 // Of points with a float64 value.
 void add_contributors(std::vector<Cell>& row, const ExactIlluminance* exact, const Scene& scene) {
     for (std::size_t k = 0; k < 3; ++k) {
-        const bool is_there = exact != nullptr && exact->largest[k].lux > 0.0;
-        row.push_back(is_there ? Cell(light_name(scene, exact->largest[k].light)) : Cell());
-        row.push_back(is_there ? Cell(exact->largest[k].lux) : Cell());
+        if (exact != nullptr && exact->largest[k].lux > 0.0) {
+            row.emplace_back(light_name(scene, exact->largest[k].light));
+            row.emplace_back(exact->largest[k].lux);
+        } else {
+            row.resize(row.size() + 2);
+        }
     }
 }
 
