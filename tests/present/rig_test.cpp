@@ -60,7 +60,7 @@ TEST_F(RigTest, TheSceneDecidesUnlessTheCommandLineDoes) {
     EXPECT_EQ(lights("object.glb", "--lights 70"), "70+0") << "lights asked for are the rig";
     EXPECT_EQ(lights("object.glb", "--light-radius 2"), "5000+0");
     EXPECT_EQ(lights("object.glb", "--lights 0"), "0+0");
-    EXPECT_EQ(lights("grid", "--lights 0"), "0+0");
+    EXPECT_EQ(lights("grid", "--lights 0"), "0+12") << "its emissive surfaces";
     EXPECT_EQ(lights("own.glb", "--lights 70"), "70+1");
 }
 
@@ -70,7 +70,7 @@ TEST_F(RigTest, ARigAskedForIsTheRigAndTheFilesLightsCount) {
     EXPECT_EQ(lights("own.glb", "--rig studio --lights 70"), "70+6 0.2");
     EXPECT_EQ(lights("object.glb", "--rig headlight"), "0+1");
     EXPECT_EQ(lights("object.glb", "--rig swarm"), "5000+0");
-    EXPECT_EQ(lights("grid", "--rig none"), "0+0");
+    EXPECT_EQ(lights("grid", "--rig none"), "0+12") << "its emissive surfaces";
     EXPECT_EQ(message_of<UsageError>([&] { lights("grid", "--rig swarm --lights 0"); }),
               "--rig swarm: needs lights, and --lights is 0");
 }

@@ -14,7 +14,7 @@ constexpr double kStart = 1e-9;
 // How far along the camera's ray a stored point may lie from its surface, relative to its depth.
 constexpr double kDepthError = 1e-3;
 // Distance of a light from a triangle's plane that float32 cannot tell from 0, relative to the
-// light's distances from the point, from the triangle and from the world's origin.
+// light's distances from the point, from the triangle and from the camera.
 constexpr double kOnPlane = 1e-6;
 
 }  // namespace
@@ -77,7 +77,8 @@ bool ShadowCaster::is_at_end(const ShadowPoint& from, const Way& way, const RayH
     const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
     const glm::dvec3 light = from.position + way.direction;
     const glm::dvec3 to_light = light - corners[0];
-    const double size = glm::length(way.direction) + glm::length(to_light) + glm::length(light);
+    const double size =
+        glm::length(way.direction) + glm::length(to_light) + glm::length(light - camera_.position);
     return std::abs(glm::dot(normal, to_light)) <= kOnPlane * size * glm::length(normal);
 }
 
