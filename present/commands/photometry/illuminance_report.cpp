@@ -33,7 +33,7 @@ std::string light_name(const Scene& scene, std::size_t number) {
     if (light.profile < 0) return out;
     const SceneProfile& profile = scene.aimed_profiles[static_cast<std::size_t>(light.profile)];
     const std::string& web = scene.webs[profile.web].name;
-    return web.empty() ? out : out + " '" + web + "'";
+    return web.empty() ? out : fmt::format("{} '{}'", out, web);
 }
 
 struct LuxSummary {
@@ -198,7 +198,8 @@ std::string illuminance_text(const Illuminances& result, const Scene& scene) {
             fmt::format("environment {:.6g} lx at most, apart\n", largest_of(result.environment));
     }
     const std::size_t shown = std::min(kShown, result.points.size());
-    out += "\n" + to_markdown(lux_table_of(result, scene, shown), 6);
+    out += '\n';
+    out += to_markdown(lux_table_of(result, scene, shown), 6);
     if (shown < result.points.size()) {
         out += fmt::format("{} more points: -o FILE.csv or --json has all\n",
                            result.points.size() - shown);
