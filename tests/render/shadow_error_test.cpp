@@ -65,7 +65,7 @@ TEST(ShadowError, OfLightsWithASizeIsAboutTheMean) {
     }
     const auto errors =
         measure(scenario,
-                {.rays = {2, 8}, .draws = 512, .seeds = 8, .truth = {.rays = 64, .pictures = 32}});
+                {.rays = {4, 16}, .draws = 512, .seeds = 2, .truth = {.rays = 64, .pictures = 32}});
     for (const SampledShadowError& e : errors) {
         EXPECT_NEAR(e.estimated_variance / e.variance, 1.0, 0.15) << e.rays;
         EXPECT_GT(e.tested_share, 0.02) << e.rays;

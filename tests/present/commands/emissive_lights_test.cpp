@@ -45,7 +45,8 @@ class EmissiveLightsOption : public testing::Test {
         begin_command(options_);
         AnimatedScene scene = open_animated_scene(options_);
         line_ = light_scene(options_, scene);
-        light_scene(options_, scene);  // a second time: lights are not doubled
+        scene.replace_lights({});
+        light_scene(options_, scene);  // a second time, as the window does: none are doubled
         const auto& all = scene.scene().lights;
         const auto of_surfaces = std::ranges::count(all, true, &SceneLight::of_surface);
         const auto others = static_cast<std::ptrdiff_t>(all.size()) - of_surfaces;
