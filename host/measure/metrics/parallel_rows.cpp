@@ -11,11 +11,11 @@ namespace {
 
 // Tells the thread sanitizer, which does not see how oneTBB hands over work, that rows run after
 // what the caller did before, and before what the caller does next.
-std::atomic<unsigned> order{0};
+std::atomic<unsigned> row_order{0};
 
 struct OrderedRow {
-    OrderedRow() { order.load(std::memory_order_acquire); }
-    ~OrderedRow() { order.fetch_add(1, std::memory_order_release); }
+    OrderedRow() { row_order.load(std::memory_order_acquire); }
+    ~OrderedRow() { row_order.fetch_add(1, std::memory_order_release); }
 };
 
 }  // namespace
@@ -30,10 +30,10 @@ void parallel_rows(int count, const std::function<void(int)>& body, const OnProg
         const std::lock_guard lock(mutex);
         progress(static_cast<double>(++done) / count);
     };
-    order.fetch_add(1, std::memory_order_release);
+    row_order.fetch_add(1, std::memory_order_release);
     // One row per task: an exception stops the work after the rows that have begun.
     tbb::parallel_for(0, count, row, tbb::simple_partitioner{});
-    order.load(std::memory_order_acquire);
+    row_order.load(std::memory_order_acquire);
 }
 
 }  // namespace kilolux

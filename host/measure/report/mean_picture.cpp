@@ -26,7 +26,8 @@ MeanPicture mean_picture(const std::shared_ptr<RenderScene>& scene, const Camera
         out.variance.resize(error.size());
         for (std::size_t k = 0; k < out.rgb.size(); ++k) out.rgb[k] += frame.radiance[k];
         for (std::size_t k = 0; k < error.size(); ++k) {
-            out.variance[k] += double{error[k]} * error[k];
+            const double one = error[k];
+            out.variance[k] += one * one;
         }
     }
     const double count = plan.pictures;
