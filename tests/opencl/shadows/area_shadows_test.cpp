@@ -26,23 +26,29 @@ struct AreaFrame {
     std::vector<float> whole, listed, all, variance, all_variance;
 };
 
-AreaFrame area_frame(int lanes, int group, uint width = 33, int shading = SHADING_PBR,
-                     uint lights_count = 6) {
+struct AreaCase {
+    uint width = 33;
+    int shading = SHADING_PBR;
+    uint lights = 6;
+    float rays = 6.0f;
+};
+
+AreaFrame area_frame(int lanes, int group, const AreaCase& asked = {}) {
     const Gpu gpu = test_gpu(lanes);
     Tuning tuning = default_tuning(gpu.info);
     tuning.shade_stage = 0;
     tuning.shade_rows = 2;
     tuning.shadow_group = group;
     KernelFeatures features;
-    features.shading = shading;
+    features.shading = asked.shading;
     features.directional_lights = features.shadows = features.sampled_shadows = true;
     features.area_lights = true;
     ViewShape shape;
-    shape.width = width;
+    shape.width = asked.width;
     shape.height = 17;
     const View view = make_view(shape);
     LightMix mix;
-    mix.count = lights_count;
+    mix.count = asked.lights;
     mix.range_min = 20;
     mix.range_max = 60;
     const ClusterGrid grid = make_cluster_grid({2, 2, 1, 1.0f, 30.0f}, view.width, view.height);
@@ -56,7 +62,7 @@ AreaFrame area_frame(int lanes, int group, uint width = 33, int shading = SHADIN
     const ListedLights lists = stages.run(lights, gbuffer, grid, timer);
     spoil_order(gpu, view, lists.clusters);
     const ShadowInput input{random_casters(gpu), unmoved_view(), origins_of(gpu, features, gbuffer),
-                            6.0f, 5};
+                            asked.rays, 5};
     Visibility visibility(gpu, tuning, features, {});
     const SeenLights seen = visibility.enqueue(lists, gbuffer, input, timer);
     const std::size_t plane = std::size_t{view.stride} * view.height;
@@ -80,7 +86,7 @@ AreaFrame area_frame(int lanes, int group, uint width = 33, int shading = SHADIN
 }
 
 void expect_forms_agree(int lanes, int group) {
-    const AreaFrame frame = area_frame(lanes, group, 17);
+    const AreaFrame frame = area_frame(lanes, group, {.width = 17});
     EXPECT_EQ(frame.listed, frame.all);
     EXPECT_EQ(frame.variance, frame.all_variance);
     EXPECT_NE(frame.listed, frame.whole) << "nothing is hidden";
@@ -103,14 +109,22 @@ TEST(AreaShadows, LanesAndFormsChangeNoBit) {
 
 // Of many lights a pixel picks few, so that most are no candidates.
 TEST(AreaShadows, OfManyLightsAreThoseOfEveryLight) {
-    const AreaFrame frame = area_frame(16, 1, 33, SHADING_PBR, 200);
+    const AreaFrame frame = area_frame(16, 1, {.lights = 200});
     EXPECT_EQ(frame.listed, frame.all);
     EXPECT_EQ(frame.variance, frame.all_variance);
     EXPECT_NE(frame.listed, frame.whole);
 }
 
+// A lobe's rays often end in the last row for which there is room, before the next lobe's.
+TEST(AreaShadows, OfFullRowsAreThoseOfEveryLight) {
+    for (float rays = 6.0f; rays <= 40.0f; rays += 2.0f) {
+        const AreaFrame frame = area_frame(16, 1, {.lights = 2, .rays = rays});
+        EXPECT_EQ(frame.listed, frame.all) << rays << " rays";
+    }
+}
+
 TEST(AreaShadows, OfMattSurfacesHaveNoGlossyRays) {
-    const AreaFrame frame = area_frame(4, 1, 33, SHADING_LAMBERT);
+    const AreaFrame frame = area_frame(4, 1, {.shading = SHADING_LAMBERT});
     EXPECT_EQ(frame.listed, frame.all);
     EXPECT_NE(frame.listed, frame.whole);
 }
