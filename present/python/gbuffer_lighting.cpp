@@ -66,20 +66,13 @@ cl::Buffer device_copy(const Gpu& gpu, const std::vector<T>& values) {
     return buffer;
 }
 
-GBufferLayout full_layout(const View& view, const SceneFeatures& features) {
-    GBufferNeeds needs;
-    static_cast<SceneFeatures&>(needs) = features;
-    needs.layout = GBUFFER_FULL;
-    return make_gbuffer_layout(needs, view.stride, view.height);
-}
-
 // The float32 layout's planes in one buffer.
 class FullPlanes {
  public:
     FullPlanes(const HostSurfaces& surfaces, const View& view, const SceneFeatures& features)
         : surfaces_(surfaces),
           view_(view),
-          layout_(full_layout(view, features)),
+          layout_(full_gbuffer_layout(features, view.stride, view.height)),
           bytes_(gbuffer_bytes(layout_, view.stride, view.height)) {}
 
     void fill(float z_near) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The atrium by lanterns: which lights hang there, and that their meshes hide nothing of them.
+// The atrium by lanterns: which lights hang there, and that their own meshes do not hide them.
 #include <gtest/gtest.h>
 
 #include <map>

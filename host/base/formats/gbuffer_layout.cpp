@@ -83,6 +83,13 @@ GBufferLayout make_gbuffer_layout(const GBufferNeeds& needs, uint stride, uint h
     return out;
 }
 
+GBufferLayout full_gbuffer_layout(const SceneFeatures& features, uint stride, uint height) {
+    GBufferNeeds needs;
+    static_cast<SceneFeatures&>(needs) = features;
+    needs.layout = GBUFFER_FULL;
+    return make_gbuffer_layout(needs, stride, height);
+}
+
 std::size_t gbuffer_bytes(const GBufferLayout& layout, uint stride, uint height) {
     std::size_t end = 0;
     for (uint plane = 0; plane < PLANE_COUNT; ++plane) {

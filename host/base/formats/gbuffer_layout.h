@@ -20,6 +20,9 @@ struct GBufferNeeds : SceneFeatures {
 /// Which planes a G-buffer has and where, for planes of stride * height elements.
 GBufferLayout make_gbuffer_layout(const GBufferNeeds& needs, uint stride, uint height);
 
+/// The layout GBUFFER_FULL of a scene with these features.
+GBufferLayout full_gbuffer_layout(const SceneFeatures& features, uint stride, uint height);
+
 /// Bytes of the one buffer that holds all planes.
 std::size_t gbuffer_bytes(const GBufferLayout& layout, uint stride, uint height);
 

@@ -58,19 +58,12 @@ Camera camera_around(const Box& box) {
     return camera;
 }
 
-GBufferLayout full_layout(const View& view, const KernelFeatures& features) {
-    GBufferNeeds needs;
-    static_cast<SceneFeatures&>(needs) = features;
-    needs.layout = GBUFFER_FULL;
-    return make_gbuffer_layout(needs, view.stride, view.height);
-}
-
 // The planes of a frame's points: point i is pixel i of the tiles one after the other.
 class PointPlanes {
  public:
     PointPlanes(const View& view, const KernelFeatures& features)
         : view_(view),
-          layout_(full_layout(view, features)),
+          layout_(full_gbuffer_layout(features, view.stride, view.height)),
           bytes_(gbuffer_bytes(layout_, view.stride, view.height)) {}
 
     std::size_t pixel(std::size_t i) const {

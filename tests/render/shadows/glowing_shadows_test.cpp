@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights of emissive meshes: nothing of such a mesh hides its own light, and references see them.
+// Lights of emissive meshes: such a mesh does not hide its own light, and references see them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -197,7 +197,7 @@ TEST(GlowingShadows, APanelIsARectangleLightBeforeIt) {
     EXPECT_GT(picture_error(a.radiance, whole.radiance), 0.02) << "the table casts a shadow";
 }
 
-// Faces of a convex mesh hide nothing of each other from where they shine.
+// A convex mesh hides no face that shines towards a point.
 TEST(GlowingShadows, ACurvedMeshIsNotBlack) {
     Scene scene;
     scene.instances.push_back(
@@ -258,7 +258,7 @@ TEST(GlowingShadows, ReferencesSeeThem) {
     EXPECT_GT(picture_error(frame.radiance, shade_reference(lit, options).radiance.rgb), 0.02);
 }
 
-// In double nothing of the panel and of the ceiling hides it either.
+// In double precision panel and ceiling do not hide it either.
 TEST(GlowingShadows, ReferencesAreNotBlackBelowAPanel) {
     for (const double below : {0.0, 0.01}) {
         const Scene scene = lit_by_surfaces(room_with_panel(below, 0.3));

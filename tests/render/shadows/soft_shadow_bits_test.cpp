@@ -51,6 +51,17 @@ TEST(SoftShadowBits, AreThoseOfEveryLight) {
     EXPECT_NE(render_once(scene, settings).radiance, listed.radiance);
 }
 
+// So many lights and rays that a lobe's rays may fill the row of the last for which there is room.
+TEST(SoftShadowBits, OfManyLanternsAreThoseOfEveryLight) {
+    const Scene scene = make_generated_scene("lanterns");
+    RenderSettings settings = soft_settings(160, 100, 16);
+    settings.shading = Shading::pbr;
+    settings.lights.count = 0;
+    const Frame listed = render_once(scene, settings);
+    settings.renderer = RendererKind::deferred_all;
+    EXPECT_EQ(render_once(scene, settings).radiance, listed.radiance);
+}
+
 // The first ray of a single pixel passes beside the board that others meet.
 TEST(SoftShadowBits, OfAPixelInPenumbraAreThoseOfEveryLight) {
     const Scene scene = board_below(panel(LightType::rectangle)).scene;

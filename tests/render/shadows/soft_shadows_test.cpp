@@ -106,18 +106,22 @@ TEST(SoftShadows, ErrorsFallWithTheRays) {
     }
 }
 
+// The bits of a picture without shadows, and no noise.
+void expect_unshadowed(const ShadowScenario& scenario, RenderSettings settings) {
+    settings.want.aovs = {"error-standard"};
+    const Frame sampled = Renderer(scenario.scene, settings).render(scenario.camera, 0.0);
+    settings.want.aovs.clear();
+    settings.shadows = Shadows::off;
+    EXPECT_EQ(sampled.radiance,
+              Renderer(scenario.scene, settings).render(scenario.camera, 0.0).radiance);
+    for (const float error : sampled.aovs.front().values) ASSERT_EQ(error, 0.0f);
+}
+
 TEST(SoftShadows, WithoutCastersAreNoNoise) {
     for (const LightType type : kSizedTypes) {
         ShadowScenario scenario = board_below(panel(type));
         scenario.scene.instances.pop_back();
-        RenderSettings settings = soft_settings();
-        settings.want.aovs = {"error-standard"};
-        const Frame sampled = Renderer(scenario.scene, settings).render(scenario.camera, 0.0);
-        settings.want.aovs.clear();
-        settings.shadows = Shadows::off;
-        EXPECT_EQ(sampled.radiance,
-                  Renderer(scenario.scene, settings).render(scenario.camera, 0.0).radiance);
-        for (const float error : sampled.aovs.front().values) ASSERT_EQ(error, 0.0f);
+        expect_unshadowed(scenario, soft_settings());
     }
 }
 
@@ -132,13 +136,7 @@ TEST(SoftShadows, WhatASphereEnclosesHidesNothingOfIt) {
     place(scenario.scene, bulb, placed(light.position));
     RenderSettings settings = soft_settings(48, 27, 16);
     settings.shading = Shading::pbr;
-    settings.want.aovs = {"error-standard"};
-    const Frame sampled = Renderer(scenario.scene, settings).render(scenario.camera, 0.0);
-    settings.want.aovs.clear();
-    settings.shadows = Shadows::off;
-    EXPECT_EQ(sampled.radiance,
-              Renderer(scenario.scene, settings).render(scenario.camera, 0.0).radiance);
-    for (const float error : sampled.aovs.front().values) ASSERT_EQ(error, 0.0f);
+    expect_unshadowed(scenario, settings);
 }
 
 // The edge of a board at height h under a light of width w at height H casts a penumbra of the
