@@ -34,7 +34,7 @@ def test_changes_give_the_pictures_of_new_renderers():
 @pytest.mark.parametrize("count", [129, 200])
 def test_automatic_tails_follow_lights_and_shadows(count):
     lights = kilolux.Lights([[2.0 * (i % 20) - 19.0, 2.0, 2.0 * (i // 20) - 9.0] for i in range(count)], 0.01)
-    options = {"resolution": (64, 48), "ambient": 0, "lights": lights}
+    options = {"resolution": (64, 48), "ambient": 0, "lights": lights, "emissive_lights": "off"}
 
     glow = kilolux.render("grid", **{**options, "lights": []}).radiance.sum()  # the scene's own
 
@@ -42,7 +42,7 @@ def test_automatic_tails_follow_lights_and_shadows(count):
     def light(**more):
         return kilolux.render("grid", **options, **more).radiance.sum() - glow
 
-    renderer = kilolux.Renderer("grid", resolution=(64, 48), ambient=0, lights=kilolux.Lights([[0, 2, 0]], 1.0))
+    renderer = kilolux.Renderer("grid", **{**options, "lights": kilolux.Lights([[0, 2, 0]], 1.0)})
     renderer.change(lights=lights)
     for shadows in ("off", "exact", "off"):
         renderer.change(shadows=shadows)
@@ -82,7 +82,7 @@ def test_a_change_that_fails_changes_nothing():
 def test_lights_in_arrays_replace_each_other():
     random = np.random.default_rng(3)
     arrays = [kilolux.Lights(random.uniform(-3, 3, (n, 3)), random.uniform(0, 2, (n, 3)), 2.0) for n in (50, 20)]
-    options = {"resolution": (64, 48)}
+    options = {"resolution": (64, 48), "emissive_lights": "off"}
     renderer = kilolux.Renderer("grid", lights=arrays[0], **options)
     assert renderer.render().stats["lights"] == {"given": 50, "used": 50, "rejected": 0, "dropped": 0}
     spot = kilolux.Lights([[0, 3, 0]], 40.0, 9.0, direction=(0, -2, 0), outer_cone=0.9, kind="spot")
