@@ -54,6 +54,9 @@ std::vector<std::pair<std::string, std::string>> feature_macros(const SceneFeatu
     if (features.light_d_min != LIGHT_D_MIN) {
         macros.emplace_back("LIGHT_D_MIN", literal(features.light_d_min));
     }
+    if (features.light_groups > 0) {
+        macros.emplace_back("LIGHT_GROUPS", std::to_string(features.light_groups));
+    }
     const bool has_random_ranges = features.random_ranges > 0.0f;
     macros.emplace_back("HAS_RANDOM_RANGES", has_random_ranges ? "1" : "0");
     if (has_random_ranges) macros.emplace_back("RANDOM_RANGES", literal(features.random_ranges));

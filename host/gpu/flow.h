@@ -44,6 +44,8 @@ struct LightExtraInput {
     std::optional<DeviceArray<float>> profile_tables;  // see light_profile.h
     // With KernelFeatures::area_lights.
     std::optional<DeviceArray<LightShape>> shapes;
+    // With KernelFeatures::light_groups: numbers from 1; 0: in none. Directional lights come last.
+    std::optional<DeviceArray<std::uint8_t>> groups;
 };
 
 /// Lights as the host hands them over.
@@ -84,6 +86,7 @@ struct PreparedLights {
         set("aimed_profiles", extras.profiles);
         set("profile_tables", extras.profile_tables);
         set("shapes", extras.shapes);
+        set("light_groups", extras.groups);
         set("tree_nodes", nodes);
         set("node_count", node_count);
     }
@@ -182,11 +185,16 @@ struct LitPixels {
     }
 };
 
-/// Linear HDR radiance as three planes.
+/// Linear HDR radiance as three planes, and after them three for each group of lights.
 struct Radiance {
     static constexpr std::size_t kPixelBytes = 3 * sizeof(float);
-    DeviceArray<float> planes;  // [3][height][stride]; empty where shading wrote to a DisplayTarget
+    DeviceArray<float> planes;  // [3 + 3 groups][height][stride]; empty where shading wrote to a
+                                // DisplayTarget
     View view{};
+    uint groups = 0;
+
+    std::size_t plane_size() const { return std::size_t{view.stride} * view.height; }
+    std::size_t floats() const { return 3 * (std::size_t{1} + groups) * plane_size(); }
 };
 
 /// Light that the display shows as a code of its own, whatever the tone curve makes of it.

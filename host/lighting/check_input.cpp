@@ -47,6 +47,10 @@ void check_input(const LightInput& lights) {
     };
     check_extras("light profiles", lights.extras.profiles);
     check_extras("light shapes", lights.extras.shapes);
+    if (lights.extras.groups) {
+        check_size("light groups", *lights.extras.groups, rows + lights.directional_count,
+                   std::to_string(rows) + " rows and directional lights");
+    }
 }
 
 void check_input(const ClusterGrid& grid, const View& view) {

@@ -193,4 +193,38 @@ Layer make_aov_of_strip(std::string_view name, const DecodedSurfaces& surfaces,
     return layer;
 }
 
+namespace {
+
+Layer light_layer(std::string_view group) {
+    const std::string name = std::string(kLightLayers).append(group);
+    return {name, {name + ".R", name + ".G", name + ".B"}};
+}
+
+}  // namespace
+
+std::vector<Layer> make_light_layers(const DecodedSurfaces& surfaces,
+                                     const std::vector<LightGroup>& groups) {
+    std::vector<Layer> out;
+    if (groups.empty()) return out;
+    const std::size_t plane = std::size_t{surfaces.view.stride} * surfaces.view.height;
+    const auto light = [&](std::size_t group, std::size_t channel, std::size_t pixel) {
+        return surfaces.light[(3 * group + channel) * plane + pixel];
+    };
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        out.push_back(light_layer(groups[g].name));
+        fill(out.back(), out.back().values, surfaces.view, [&](std::size_t pixel, float* to) {
+            for (std::size_t c = 0; c < 3; ++c) to[c] = light(g + 1, c, pixel);
+        });
+    }
+    out.push_back(light_layer(kRestGroup));
+    fill(out.back(), out.back().values, surfaces.view, [&](std::size_t pixel, float* to) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            double rest = light(0, c, pixel);
+            for (std::size_t g = 1; g <= groups.size(); ++g) rest -= light(g, c, pixel);
+            to[c] = static_cast<float>(rest);
+        }
+    });
+    return out;
+}
+
 }  // namespace kilolux

@@ -8,6 +8,7 @@
 
 #include "host/picture/decoded_surfaces.h"
 #include "host/scene/camera.h"
+#include "host/scene/lights/light_groups.h"
 
 namespace kilolux {
 
@@ -33,5 +34,13 @@ Layer make_aov(std::string_view name, const DecodedSurfaces& surfaces, const Cam
 /// The same of a strip of a picture lit by `lights`, with Layer::most_id.
 Layer make_aov_of_strip(std::string_view name, const DecodedSurfaces& surfaces,
                         const Camera& camera, std::uint64_t lights);
+
+/// The names of layers of groups' light begin so.
+inline constexpr std::string_view kLightLayers = "light.";
+
+/// The light of each group, and of the rest: what else the picture shows, by subtraction, so that
+/// the sum of all is the picture within the rounding of one subtraction.
+std::vector<Layer> make_light_layers(const DecodedSurfaces& surfaces,
+                                     const std::vector<LightGroup>& groups);
 
 }  // namespace kilolux

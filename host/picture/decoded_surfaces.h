@@ -37,6 +37,9 @@ struct DecodedSurfaces {
     // [3][height][stride]: a bound of the radiance that ranges take from lights without one of
     // their own; empty if not asked for.
     std::vector<float> bound;
+    // With groups of lights, the planes of a Radiance: the light of the picture's pixels, and the
+    // part of it from each group.
+    std::vector<float> light;
     std::vector<uint> layers;  // [height][stride]: that blend; empty if not counted
     std::vector<uint> taken;   // [height][stride] samples; empty where their number was given
     ClusterGrid grid{};

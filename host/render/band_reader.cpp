@@ -117,6 +117,9 @@ DecodedSurfaces BandReader::pixels(const LastSample& last) {
                                  SURFACE_PLANES * plane_size(band));
     count_evaluated(last, out);
     if (context_.settings.want.layers()) add_layers(last, out);
+    if (band.light.groups > 0) {
+        out.light = download(context_.gpu, band.light.planes, band.light.floats());
+    }
     return out;
 }
 

@@ -56,7 +56,7 @@ Sample make_sample(Pipeline& p, const Shot& shot, LightInput lights, const Band&
 // Reads a band's AOVs, and its surfaces if a view needs them.
 void add_pixels(Pipeline& p, const Shot& shot, SharedPicture& picture) {
     const FrameRequest& want = p.context.settings.want;
-    if (!want.pixels()) return;
+    if (!reads_pixels(p.context.settings)) return;
     DecodedSurfaces pixels = p.reader.pixels({p.last.band, p.current_stages(), shot.camera});
     p.samples.add_counts(pixels);
     Frame& frame = picture.frame;
@@ -67,6 +67,8 @@ void add_pixels(Pipeline& p, const Shot& shot, SharedPicture& picture) {
                                                       picture.frame.stats.lights_given)
                                   : make_aov(name, pixels, shot.camera));
     }
+    std::ranges::move(make_light_layers(pixels, p.context.settings.light_groups),
+                      std::back_inserter(layers));
     const auto width = static_cast<std::size_t>(frame.width);
     const std::scoped_lock lock(picture.placing);
     const std::size_t row = pixels.view.first_row - static_cast<std::size_t>(frame.first_row);

@@ -14,6 +14,7 @@ RenderSettings reference_of(RenderSettings settings) {
     settings.renderer = RendererKind::deferred_all;
     settings.want = radiance_only();
     settings.background.reset();  // differences are those of surfaces
+    settings.light_groups.clear();
     return settings;
 }
 
@@ -75,6 +76,7 @@ void Pipeline::take(const RenderSettings& next) {
     }
     lights.set_generated(next.lights);
     lights.set_tails(next);
+    lights.set_groups(next.light_groups);
 }
 
 void Pipeline::change(std::unique_ptr<Pipeline>& pipeline,

@@ -39,7 +39,8 @@ bool RenderContext::shades_display() const {
     const FrameRequest& want = settings.want;
     const bool is_one_sample = settings.samples <= 1 && !settings.auto_samples.on;
     const bool is_all = !settings.background && !settings.reflections &&
-                        !needs_whole_picture(settings) && !blends();
+                        !needs_whole_picture(settings) && !blends() &&
+                        settings.light_groups.empty();
     return settings.renderer == RendererKind::deferred && want.display && !want.radiance &&
            want.view == ViewKind::lit && is_one_sample && is_all &&
            !plan.kernels.fast_relaxed_math && !plan.kernels.native_math;

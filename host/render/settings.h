@@ -9,6 +9,7 @@
 #include "host/picture/frame_request.h"
 #include "host/scene/lights/environment.h"
 #include "host/scene/lights/light_generator.h"
+#include "host/scene/lights/light_groups.h"
 #include "host/scene/lights/light_ranges.h"
 #include "host/scene/lights/prefiltered_environment.h"
 #include "kernels/shared/evaluate_modes.h"
@@ -121,6 +122,9 @@ struct RenderSettings {
     int samples = 1;  // jittered samples a pixel
     AutoSamples auto_samples;
     FrameRequest want;  // what render() brings to the host
+    // Layers of Frame::aovs, after those that are wanted: the light of each, named kLightLayers and
+    // the group's name, and the rest.
+    std::vector<LightGroup> light_groups;
     GridSettings grid;
     KernelSettings kernels;
     std::vector<std::string>
@@ -134,5 +138,10 @@ struct RenderSettings {
     std::shared_ptr<const Gpu> opened;
     bool operator==(const RenderSettings&) const = default;
 };
+
+/// Whether more is read of pixels than their light.
+inline bool reads_pixels(const RenderSettings& settings) {
+    return settings.want.pixels() || !settings.light_groups.empty();
+}
 
 }  // namespace kilolux

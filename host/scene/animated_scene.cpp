@@ -126,6 +126,7 @@ AnimatedScene::AnimatedScene(const std::filesystem::path& path, const LoadOption
     scene_.clips = list_clips(file.document);
     scene_.variants = list_variants(file.document);
     scene_.webs = read_profiles(file.document);
+    scene_.light_nodes = read_light_nodes(file.document);
     place();
     scene_.images = decode_images(file.document, file.materials, progress);
     for (Image& image : roughness_images(file.document, file.materials, scene_.images)) {

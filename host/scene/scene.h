@@ -143,6 +143,7 @@ struct SceneLight {
     float skew = 0.0f;                 // [m], of a triangle's second edge along `side`
     float radius = 0.0f;               // [m], of a sphere
     int profile = -1;                  // index into Scene::aimed_profiles; -1: none
+    int node = -1;                     // of its file, index into Scene::light_nodes; -1: none
     LightType type = LightType::point;
     bool two_sided = false;       // rectangle, disk, triangle
     bool has_own_range = true;    // false: fill_missing_ranges() set it, see light_ranges.h
@@ -159,6 +160,12 @@ struct SceneProfile {
     std::size_t web = 0;    // index into Scene::webs
     bool mirrored = false;  // horizontal angles turn the other way
     bool operator==(const SceneProfile&) const = default;
+};
+
+/// What a file says of a node that has a light.
+struct LightNode {
+    std::string name;
+    std::string group;  // the text extras.group of the node, else of its light
 };
 
 /// A camera of the scene: at world_from_camera's origin, looking down its -Z.
@@ -240,6 +247,7 @@ struct Scene {
     std::vector<SceneLight> lights;
     std::vector<PhotometricWeb> webs;          // of the lights with IES profiles
     std::vector<SceneProfile> aimed_profiles;  // one for each of these lights
+    std::vector<LightNode> light_nodes;        // by the file's nodes; those without lights are empty
     std::vector<SceneCamera> cameras;
     std::vector<Clip> clips;            // of the file; only those that play move the scene
     std::vector<std::string> variants;  // of the file's materials (KHR_materials_variants)

@@ -20,15 +20,17 @@
         global const float *restrict srgb
 
 // PreparedLights, view space. lights, bounds (p_view, 1/range^2), extents, aimed_profiles,
-// shapes: [light_count + node_count]; the nodes of the light tree come last.
+// shapes: [light_count + node_count]; the nodes of the light tree come last. light_groups: the same,
+// then [directional_count].
 #define LIGHT_ARGS(access)                                                                     \
     global access StoredLight *restrict lights, global access float4 *restrict bounds,         \
         global access LightExtent *restrict extents, uint light_count,                         \
         global const DirectionalLight *restrict directional_lights, uint directional_count,    \
         global const AimedProfile *restrict aimed_profiles,                                    \
         global const float *restrict profile_tables, global const LightShape *restrict shapes, \
-        global const TreeNode *restrict tree_nodes, uint node_count
-#define EXTRAS_OF_ARGS ((LightExtras){{aimed_profiles, profile_tables}, shapes})
+        global const uchar *restrict light_groups, global const TreeNode *restrict tree_nodes, \
+        uint node_count
+#define EXTRAS_OF_ARGS ((LightExtras){{aimed_profiles, profile_tables}, shapes, light_groups})
 
 // ClusterBoxes. columns: [slices][tiles_x]; rows: [slices][tiles_y]; depths: [slices].
 #define BOX_ARGS(access)                                                                           \
@@ -79,7 +81,7 @@
 #define WORD_ARGS(access) \
     global const uint *restrict word_offsets, global access uint *restrict words
 
-// ShadowSamples. whole: [3][height][stride], radiance if all lights are seen.
+// ShadowSamples. whole: RADIANCE_PLANES, the radiance if all lights are seen.
 #define SAMPLE_ARGS global const float *restrict whole, float rays, uint seed
 
 // SrgbBucketTables: [SRGB_BUCKETS] each.
@@ -89,7 +91,7 @@
 // DisplayTarget. gain: 2^exposure; display: out [height][stride], see display.h.
 #define DISPLAY_ARGS float gain, BUCKET_ARGS, global uint *restrict display
 
-// ShadingOutput of host/stages/shading/shade.cpp. radiance: out [3][height][stride]; variance: out
+// ShadingOutput of host/stages/shading/shade.cpp. radiance: out RADIANCE_PLANES; variance: out
 // [height][stride], the estimated variance of the luminance.
 #define OUTPUT_ARGS \
     float ambient, global float *restrict radiance, global float *restrict variance, DISPLAY_ARGS

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stores the result of shading: three planes.
+// Stores the result of shading: three planes, and three more for each group of lights.
 #ifndef KILOLUX_DEVICE_RADIANCE_H
 #define KILOLUX_DEVICE_RADIANCE_H
 #include "kernels/device/gbuffer.h"
 #include "kernels/device/lanes.h"
+
+// Groups of lights whose light is stored, each for itself, beside the whole: RADIANCE_PLANES is
+// [3 + 3 * LIGHT_GROUPS][height][stride].
+#ifndef LIGHT_GROUPS
+#define LIGHT_GROUPS 0
+#endif
 
 static inline void store_plane(global float* plane, Pixels pixels, FV value) {
 #if ORDERED_PIXELS
@@ -34,6 +40,11 @@ static inline void store_radiance(global float* radiance, View view, Pixels pixe
     store_plane(radiance, pixels, color.x);
     store_plane(radiance + plane, pixels, color.y);
     store_plane(radiance + 2 * plane, pixels, color.z);
+}
+
+// The first of a group's planes; group 0 is the whole.
+static inline uint group_planes(View view, uint group) {
+    return 3u * group * view.stride * view.height;
 }
 
 static inline FV3 load_radiance(global const float* radiance, View view, Pixels pixels) {

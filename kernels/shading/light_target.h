@@ -33,6 +33,19 @@ static inline void store_light(LightTarget to, View view, Pixels pixels, FV3 col
 #endif
 }
 
+// Light of a group, 1 .. LIGHT_GROUPS.
+static inline void store_group_light(LightTarget to, View view, uint group, Pixels pixels,
+                                     FV3 color) {
+#if LIGHT_GROUPS
+    store_radiance(to.radiance + group_planes(view, group), view, pixels, color);
+#endif
+}
+
+static inline void store_darkness(LightTarget to, View view, Pixels pixels) {
+    store_light(to, view, pixels, zero3());
+    for (uint i = 1u; i <= LIGHT_GROUPS; ++i) store_group_light(to, view, i, pixels, zero3());
+}
+
 // Prefetches the row's pixels in the tile to the right, which a CPU's thread shades next.
 static inline void prefetch_next_tile(GBuffer g, LightTarget to, uint x, uint y) {
     uint place = y * g.view.stride + x + FINE_TILE;

@@ -59,6 +59,9 @@ static inline LightSum source_sum(LightSource from, GBuffer g, ItemPlace at, Lit
         global const ActiveCluster* cluster = from.clusters.clusters + i;
         MASK mine = lanes_in_cluster(item, from.clusters, i);
         bool any_mine = wanted && lane_any(mine);
+#if LIGHT_GROUPS
+        set.mine = mine;
+#endif
 #if SHADOWS
         if (any_mine) {
             set.shadows = bits_of_cluster(from.words + from.word_offsets[at.tile], cluster,

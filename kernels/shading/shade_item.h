@@ -31,14 +31,14 @@ static inline void shade_item(GBuffer g, LightSource from, LightSet set, ShadeOu
     if (!inside) at.y = view.height - 1u;  // rows below the planes only help to stage
     prefetch_next_tile(g, out.to, at.x, at.y);
     if (!has_lights(from, at.tile)) {  // background, for the whole group
-        if (inside) store_light(out.to, view, row_pixels(view, at.x, at.y), zero3());
+        if (inside) store_darkness(out.to, view, row_pixels(view, at.x, at.y));
         return;
     }
     LitItem item = source_item(from, g, at.x, at.y);
     bool wanted = inside && item.any;
 #if STAGE == 0
     if (!wanted) {
-        store_light(out.to, view, item.pixels, zero3());
+        store_darkness(out.to, view, item.pixels);
         return;
     }
 #endif
@@ -54,6 +54,11 @@ static inline void shade_item(GBuffer g, LightSource from, LightSet set, ShadeOu
     set.candidates.rays = out.samples.rays;
     set.candidates.tile = tile_key(view, out.samples.seed, at.x, at.y);
 #endif
+#if LIGHT_GROUPS
+    RunningSum groups[1 + LIGHT_GROUPS];
+    for (uint i = 0u; i <= LIGHT_GROUPS; ++i) groups[i] = start_sum(zero_sum());
+    set.groups = groups;
+#endif
     LightSum sum = source_sum(from, g, at, item, wanted, p, set);
 #if SAMPLED_SHADOWS
     FV3 color = without_hidden(set.pick, load_radiance(out.samples.whole, view, item.pixels), sum);
@@ -61,6 +66,19 @@ static inline void shade_item(GBuffer g, LightSource from, LightSet set, ShadeOu
 #else
     FV3 color = finish_shading(s, p, sum, out.ambient);
 #endif
-    if (inside) store_light(out.to, view, item.pixels, select3(item.shown, color, zero3()));
+    if (!inside) return;
+    store_light(out.to, view, item.pixels, select3(item.shown, color, zero3()));
+#if LIGHT_GROUPS
+    for (uint i = 1u; i <= LIGHT_GROUPS; ++i) {
+        LightSum lights = finish_sum(groups[i]);
+#if SAMPLED_SHADOWS
+        FV3 whole = load_radiance(out.samples.whole + group_planes(view, i), view, item.pixels);
+        FV3 lit = without_hidden(set.pick, whole, lights);
+#else
+        FV3 lit = reflected_radiance(s, p, lights);
+#endif
+        store_group_light(out.to, view, i, item.pixels, select3(item.shown, lit, zero3()));
+    }
+#endif
 }
 #endif

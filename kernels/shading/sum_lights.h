@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sum of evaluate() over a list of lights, or with ALL_LIGHTS over lights 0 .. count - 1, for
 // VW pixels. With STAGE > 0 a work-group reads that many lights at a time into local memory, which
-// GPUs read faster than global memory through its cache.
+// GPUs read faster than global memory through its cache. With LIGHT_GROUPS each light also joins
+// the sum of its group: the compiler evaluates it once for both sums.
 #ifndef KILOLUX_DEVICE_SUM_LIGHTS_H
 #define KILOLUX_DEVICE_SUM_LIGHTS_H
 #include "kernels/device/light_index.h"
+#include "kernels/device/radiance.h"
 #include "kernels/device/stored_light.h"
 #include "kernels/shared/evaluate.h"
 
@@ -69,27 +71,61 @@ typedef struct LightSet {
 #if MARK_CANDIDATES
     Candidates candidates;
 #endif
+#if LIGHT_GROUPS
+    RunningSum* groups;      // [1 + LIGHT_GROUPS]; 0: of the lights in no group
+    uint first_directional;  // place of the directional lights in extras.groups
+    MASK mine;               // lanes whose groups get the light
+#endif
     LightExtras extras;
 } LightSet;
 
 // Declares the set of a kernel's arguments, and the local memory in which it stages lights.
 #if STAGE > 0
-#define LIGHT_SET_OF_ARGS(set)                        \
-    local ShadeLight staged_lights[STAGE];            \
-    local uint staged_indices[STAGE];                 \
-    LightSet set = light_set(lights, EXTRAS_OF_ARGS); \
-    set.staged = staged_lights;                       \
+#define LIGHT_SET_OF_ARGS(set)                                                  \
+    local ShadeLight staged_lights[STAGE];                                      \
+    local uint staged_indices[STAGE];                                           \
+    LightSet set = light_set(lights, EXTRAS_OF_ARGS, light_count + node_count); \
+    set.staged = staged_lights;                                                 \
     set.staged_indices = staged_indices
 #else
-#define LIGHT_SET_OF_ARGS(set) LightSet set = light_set(lights, EXTRAS_OF_ARGS)
+#define LIGHT_SET_OF_ARGS(set) \
+    LightSet set = light_set(lights, EXTRAS_OF_ARGS, light_count + node_count)
 #endif
 
-static inline LightSet light_set(global const StoredLight* lights, LightExtras extras) {
+// `rows`: of `lights`.
+static inline LightSet light_set(global const StoredLight* lights, LightExtras extras, uint rows) {
     LightSet set;
     set.lights = lights;
     set.extras = extras;
+#if LIGHT_GROUPS
+    set.first_directional = rows;
+    set.mine = (MASK)(-1);
+#endif
     return set;
 }
+
+#if LIGHT_GROUPS
+// The sum of its group that a light joins.
+static inline LightSum* group_block(LightSet set, uint light) {
+    RunningSum* group = set.groups + set.extras.groups[light];
+    *group = enter_block(*group, light);
+    return &group->block;
+}
+
+// The same of a directional light, which is in no block.
+static inline LightSum* group_total(LightSet set, uint i) {
+    return &set.groups[set.extras.groups[set.first_directional + i]].total;
+}
+
+// Adds what a light adds to its pixels to the sum at `group`.
+#define JOIN_GROUP(group, ADD) \
+    {                          \
+        LightSum* joined = (group);  \
+        ADD                    \
+    }
+#else
+#define JOIN_GROUP(group, ADD)
+#endif
 
 static inline LightSum select_sum(MASK mask, LightSum a, LightSum b) {
 #define SELECT_TERM(has, term) a.term = select3(mask, a.term, b.term);
@@ -228,51 +264,77 @@ static inline bool hides_any(LightSet set, uint entry) {
 // Adds a light that is hidden, which the estimate takes from the radiance if all are seen. ONE: its
 // sum alone, which bits need only where one is set.
 #if SHADOWS == SHADOWS_BITS
-#define ADD_SAMPLED(set, entry, light, sum, ONE)                            \
+#define ADD_ALONE(set, entry, light, sum, ONE)                              \
     ADD_AREA(set, entry, light, sum, ONE) {                                 \
         MASK hidden = hides_drawn(set, entry, light);                       \
         if (lane_any(hidden)) (sum) = sampled_sum(set, hidden, (ONE), sum); \
     }
 #else
-#define ADD_SAMPLED(set, entry, light, sum, ONE)                          \
+#define ADD_ALONE(set, entry, light, sum, ONE)                            \
     ADD_AREA(set, entry, light, sum, ONE) {                               \
         LightSum one = (ONE);                                             \
         MASK hidden = hides_drawn(set, entry, light, one);                \
         if (lane_any(hidden)) (sum) = sampled_sum(set, hidden, one, sum); \
     }
 #endif
+#if LIGHT_GROUPS
+// The light alone, so that its variance counts once; terms are added with the same bits.
+#define ADD_SAMPLED(set, entry, light, sum, group, ONE)                                       \
+    {                                                                                         \
+        LightSum taken = zero_sum();                                                          \
+        ADD_ALONE(set, entry, light, taken, ONE)                                              \
+        (sum) = add_sums(sum, taken);                                                         \
+        JOIN_GROUP(group,                                                                     \
+                   *joined = select_sum((set).mine, add_sums(*joined, taken), *joined);)      \
+    }
+#else
+#define ADD_SAMPLED(set, entry, light, sum, group, ONE) ADD_ALONE(set, entry, light, sum, ONE)
+#endif
 #endif
 
 #if TINTED_SHADOWS
 #define TINT_VIEW(set) (set).tints.scene.view
-// Where surfaces tint the light: `sum` plus its share of the light alone, in place of `lit`.
-#define TINT(set, light, lanes, sum, lit, EVALUATED)                            \
-    {                                                                           \
-        FV3 share;                                                              \
-        (set).tints.wanted = (lanes);                                           \
-        MASK tinted_lanes = tinted((set).tints, light, &share);                 \
-        if (lane_any(tinted_lanes)) {                                           \
-            LightSum one = EVALUATED(zero_sum());                               \
-            (lit) = select_sum(tinted_lanes, add_tinted(sum, share, one), lit); \
-        }                                                                       \
+// Where surfaces tint the light: `tinted_lanes` and each colour's `share`.
+#define FIND_TINT(set, light, lanes) \
+    FV3 share;                       \
+    (set).tints.wanted = (lanes);    \
+    MASK tinted_lanes = tinted((set).tints, light, &share);
+// There `sum` plus the share of the light alone, in place of `lit`.
+#define TINT(sum, lit, EVALUATED)                                           \
+    if (lane_any(tinted_lanes)) {                                           \
+        LightSum one = EVALUATED(zero_sum());                               \
+        (lit) = select_sum(tinted_lanes, add_tinted(sum, share, one), lit); \
     }
 #else
-#define TINT(set, light, lanes, sum, lit, EVALUATED)
+#define FIND_TINT(set, light, lanes)
+#define TINT(sum, lit, EVALUATED)
 #endif
 
-// ADD_SEEN(set, sum, seen, light, EVALUATED): adds a light where `seen`. EVALUATED(sum): the sum
-// with it, which is computed only if any lane sees it. light: as shadow rays have it.
-#define ADD_SEEN(set, sum, seen, light, EVALUATED)       \
-    {                                                    \
-        MASK lanes = (seen);                             \
-        if (lane_any(lanes)) {                           \
-            LightSum lit = EVALUATED(sum);               \
-            TINT(set, light, lanes, sum, lit, EVALUATED) \
-            (sum) = select_sum(lanes, lit, sum);         \
-        }                                                \
+#define ADD_LIT(sum, lanes, EVALUATED)       \
+    {                                        \
+        LightSum lit = EVALUATED(sum);       \
+        TINT(sum, lit, EVALUATED)            \
+        (sum) = select_sum(lanes, lit, sum); \
+    }
+
+// ADD_SEEN(set, sum, group, seen, light, EVALUATED): adds a light where `seen`, to `group` also.
+// EVALUATED(sum): the sum with it, which is computed only if any lane sees it. light: as shadow
+// rays have it.
+#define ADD_SEEN(set, sum, group, seen, light, EVALUATED)                    \
+    {                                                                        \
+        MASK lanes = (seen);                                                 \
+        if (lane_any(lanes)) {                                               \
+            FIND_TINT(set, light, lanes)                                     \
+            ADD_LIT(sum, lanes, EVALUATED)                                   \
+            JOIN_GROUP(group, ADD_LIT(*joined, lanes&(set).mine, EVALUATED)) \
+        }                                                                    \
     }
 #else
-#define ADD_SEEN(set, sum, seen, light, EVALUATED) (sum) = EVALUATED(sum);
+#define ADD_SEEN(set, sum, group, seen, light, EVALUATED)                                        \
+    {                                                                                            \
+        (sum) = EVALUATED(sum);                                                                  \
+        JOIN_GROUP(group, *joined = select_sum((set).mine, EVALUATED(*joined), *joined);)        \
+    }
 #endif
 
 // MARKED(set, entry, light, sum, ADD): ADD, which adds the light to `sum`, and its candidates.
@@ -324,12 +386,13 @@ static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p, L
             uint light = set.staged_indices[i];
             sum = enter_block(sum, light);
 #if SAMPLED_SHADOWS
-            ADD_SAMPLED(set, first + i, light, sum.block,
+            ADD_SAMPLED(set, first + i, light, sum.block, group_block(set, light),
                         EVALUATE(zero_sum(), p, set.staged[i], set.extras, light))
 #else
 #define STAGED_LIGHT(sum) EVALUATE(sum, p, set.staged[i], set.extras, light)
             MARKED(set, first + i, light, sum.block,
-                   ADD_SEEN(set, sum.block, sees_entry(set, first + i, light),
+                   ADD_SEEN(set, sum.block, group_block(set, light),
+                            sees_entry(set, first + i, light),
                             shadow_point_light(TINT_VIEW(set), set.staged[i]), STAGED_LIGHT))
 #endif
         }
@@ -340,13 +403,13 @@ static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p, L
         uint light = light_of_entry(list, i);
         sum = enter_block(sum, light);
 #if SAMPLED_SHADOWS
-        ADD_SAMPLED(set, i, light, sum.block,
+        ADD_SAMPLED(set, i, light, sum.block, group_block(set, light),
                     EVALUATE(zero_sum(), p, LIGHT_AT(set.lights, light), set.extras, light))
 #else
 #define LISTED_LIGHT(sum) EVALUATE(sum, p, LIGHT_AT(set.lights, light), set.extras, light)
         MARKED(
             set, i, light, sum.block,
-            ADD_SEEN(set, sum.block, sees_entry(set, i, light),
+            ADD_SEEN(set, sum.block, group_block(set, light), sees_entry(set, i, light),
                      shadow_point_light(TINT_VIEW(set), LIGHT_AT(set.lights, light)), LISTED_LIGHT))
 #endif
     }
@@ -360,11 +423,11 @@ static inline LightSum sum_directional(ShadingPoint p, LightSet set,
 #if HAS_DIRECTIONAL_LIGHTS
     for (uint i = 0; i < count; ++i) {
 #if SAMPLED_SHADOWS
-        ADD_SAMPLED(set, i, PICKED_DIRECTIONAL + i, sum,
+        ADD_SAMPLED(set, i, PICKED_DIRECTIONAL + i, sum, group_total(set, i),
                     evaluate_directional(zero_sum(), p, lights[i]))
 #else
 #define PARALLEL_LIGHT(sum) evaluate_directional(sum, p, lights[i])
-        ADD_SEEN(set, sum, sees_directional(set, i),
+        ADD_SEEN(set, sum, group_total(set, i), sees_directional(set, i),
                  shadow_directional_light(TINT_VIEW(set), lights[i]), PARALLEL_LIGHT)
 #endif
     }

@@ -2,7 +2,7 @@
 // Lays lit layers over the light behind them, one after the other:
 // alpha * layer + (1 - alpha + alpha * t) * behind, with the alpha of the material and what the
 // surface transmits, t. Where alpha is 0, or is 1 with t 0, the result has the bits of one of the
-// two. One work-item has VW neighbours of a row.
+// two. So is the light of each group of lights. One work-item has VW neighbours of a row.
 #include "kernels/device/arguments.h"
 #include "kernels/device/gbuffer.h"
 #include "kernels/device/radiance.h"
@@ -41,9 +41,9 @@ static inline FV3 share_of_behind(GBuffer g, Pixels pixels, FV alpha) {
 
 kernel void blend_layer(GBUFFER_ARGS, SCENE_ARGS,         // of layers, from far to near
                         global const uint* restrict ids,  // [height][stride]: triangle + 1; 0: none
-                        global const float* restrict lit,  // [3][height][stride]
+                        global const float* restrict lit,  // RADIANCE_PLANES
                         View behind,                       // planes that hold the layers' rectangle
-                        global float* restrict radiance) {  // in, out [3][height][stride] of them
+                        global float* restrict radiance) {  // in, out RADIANCE_PLANES of them
     ItemPlace at = place_in_planes(view);
     uint rows = rows_of_layer(view);
     if (at.y >= rows) return;
@@ -52,21 +52,27 @@ kernel void blend_layer(GBUFFER_ARGS, SCENE_ARGS,         // of layers, from far
                            plane_row(behind, picture_row(view, at.y)));
     // Loads and stores only where a layer covers a pixel: rows may lie below the picture.
     bool has_light = false;
-    FV3 light = zero3();
+    FV3 light[1 + LIGHT_GROUPS];  // the whole, and the groups'
     for (uint y = at.y; y < view.height; y += rows) {
         Pixels pixels = row_pixels(view, at.x, y);
         UV id = lane_load(ids + pixels.first);
         MASK shown = lane_mask(id != (UV)(0u));
         if (!lane_any(shown)) continue;
-        if (!has_light) light = load_radiance(radiance, behind, to);
+        for (uint i = 0; !has_light && i <= LIGHT_GROUPS; ++i) {
+            light[i] = load_radiance(radiance + group_planes(behind, i), behind, to);
+        }
         has_light = true;
         FV alpha = alpha_of_layer(scene, view, pixels, id, shown);
-        FV3 over = load_radiance(lit, view, pixels);
         FV3 share = share_of_behind((GBuffer){gbuffer, layout, view, srgb}, pixels, alpha);
-        FV3 mixed =
-            fv3(blended(alpha, over.x, share.x, light.x), blended(alpha, over.y, share.y, light.y),
-                blended(alpha, over.z, share.z, light.z));
-        light = select3(shown, mixed, light);
+        for (uint i = 0; i <= LIGHT_GROUPS; ++i) {
+            FV3 over = load_radiance(lit + group_planes(view, i), view, pixels);
+            FV3 mixed = fv3(blended(alpha, over.x, share.x, light[i].x),
+                            blended(alpha, over.y, share.y, light[i].y),
+                            blended(alpha, over.z, share.z, light[i].z));
+            light[i] = select3(shown, mixed, light[i]);
+        }
     }
-    if (has_light) store_radiance(radiance, behind, to, light);
+    for (uint i = 0; has_light && i <= LIGHT_GROUPS; ++i) {
+        store_radiance(radiance + group_planes(behind, i), behind, to, light[i]);
+    }
 }

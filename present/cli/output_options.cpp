@@ -197,6 +197,8 @@ struct FormatOption {
 std::vector<FormatOption> format_options(const SharedOptions& shared, const Encoding& e) {
     const bool has_layers = !shared.settings.want.aovs.empty();
     return {{"--aov", has_layers, holds_layers, "cannot hold layers; use .exr"},
+            {"--light-groups", !shared.light_groups.empty(), holds_layers,
+             "cannot hold layers; use .exr"},
             {"--exr-half", e.half_colour, holds_layers, "is not an EXR file"},
             {"--exr-compression", e.exr_compression != kExrCompression, holds_layers,
              "is not an EXR file"},

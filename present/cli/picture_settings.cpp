@@ -59,6 +59,13 @@ void visit_picture(const SettingVisitor& f, SharedOptions& o) {
             [&o] { return o.show_error ? "error" : name_of(o.settings.want.view); })
         .choice_list({"--aov", "", "none", "Layers of an EXR file beside its colour", kPicture},
                      s.want.aovs, aov_choices())
+        .value({"--light-groups", "NAME=PATTERN,...|each", "none",
+                "Layers light.NAME of an EXR file: the light of each group of lights and of the "
+                "rest, whose sum is the picture. Patterns are joined by +, a light is in the first "
+                "group that matches; " +
+                    light_pattern_meaning() + "; each: a group for each light of the file",
+                kPicture},
+               o.light_groups, parse_light_groups)
         .choice({"--aov-layer", "", "", "Of which surfaces --aov and --show tell", kPicture},
                 s.want.layer);
 }

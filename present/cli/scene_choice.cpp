@@ -287,6 +287,7 @@ std::string light_scene(SharedOptions& options, AnimatedScene& scene) {
         ambient = rig_ambient(rig, options.environment.empty() ? ambient : 0.0f);
     }
     choose_emissive_lights(options, scene);
+    choose_light_groups(options, scene.scene());
     const bool finds_tails = options.settings.tails == Tails::automatic;
     choose_tails(options, scene.scene());
     // The rig option stays automatic if the automatic rig has the swarm: a copied command then
@@ -300,6 +301,11 @@ std::string light_scene(SharedOptions& options, AnimatedScene& scene) {
 
 void choose_emissive_lights(const SharedOptions& options, AnimatedScene& scene) {
     scene.light_by_surfaces(surfaces_light(options, scene.scene()));
+}
+
+void choose_light_groups(SharedOptions& options, const Scene& scene) {
+    RenderSettings& s = options.settings;
+    s.light_groups = light_groups_of(scene, s.lights.count, options.light_groups);
 }
 
 void choose_tails(SharedOptions& options, const Scene& scene) {

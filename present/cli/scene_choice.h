@@ -28,6 +28,10 @@ std::string light_scene(SharedOptions& options, AnimatedScene& scene);
 /// call it again for other lights.
 void choose_emissive_lights(const SharedOptions& options, AnimatedScene& scene);
 
+/// Finds the scene's lights of --light-groups. light_scene() calls it; call it again where the
+/// scene's lights have changed. Throws UsageError as light_groups_of() does.
+void choose_light_groups(SharedOptions& options, const Scene& scene);
+
 /// Where the tails are automatic and bounded ranges would lose much of the light of the lights
 /// without one: chooses a tree, or longer ranges where a tree cannot light the picture. Warns where
 /// these are too many. light_scene() calls it; call it again for other lights.

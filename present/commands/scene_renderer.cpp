@@ -127,6 +127,7 @@ void SceneRenderer::relight(SharedOptions& options) {
 // the options leave it open.
 void SceneRenderer::choose_for_lights() {
     choose_emissive_lights(options_, scene_);
+    choose_light_groups(options_, scene_.scene());
     options_.settings.tails = asked_.tails;
     options_.settings.range_budget = asked_.range_budget;
     kilolux::choose_tails(options_, scene_.scene());
@@ -168,6 +169,7 @@ void SceneRenderer::set_lights(std::vector<SceneLight> lights) {
     RenderSettings settings = renderer_->settings();
     settings.tails = options_.settings.tails;
     settings.range_budget = options_.settings.range_budget;
+    settings.light_groups = options_.settings.light_groups;
     renderer_->change(settings);
     renderer_->refit();
 }

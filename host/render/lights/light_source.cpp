@@ -68,6 +68,8 @@ LightSource::LightSource(const Gpu& gpu, const Tuning& tuning, const Scene& scen
       profile_starts_(profile_starts(scene.webs)),
       profiles_(gpu, "lights"),
       shapes_(gpu, "lights"),
+      groups_(gpu, "lights"),
+      light_groups_(settings.light_groups),
       uploaded_tables_(gpu, "lights"),
       nodes_(gpu, "lights") {
     if (!scene.aimed_profiles.empty()) upload_tables();
@@ -89,6 +91,13 @@ void LightSource::set_tails(const RenderSettings& settings) {
     tails_ = tails;
     range_budget_ = settings.range_budget;
     revision_.reset();
+}
+
+void LightSource::set_groups(const std::vector<LightGroup>& groups) {
+    if (groups == light_groups_) return;
+    light_groups_ = groups;
+    if (groups.empty()) input_.extras.groups.reset();
+    is_ordered_ = false;
 }
 
 // Takes over the scene's own lights where they changed.
@@ -182,8 +191,23 @@ DeviceArray<Row> LightSource::upload_extras(GrowingArray<Row>& to, const Row& dr
     return out;
 }
 
+// Uploads the groups of all lights, the directional ones last.
+void LightSource::upload_groups() {
+    std::vector<std::uint8_t> rows(row_count(), group_of(drifting_light(), scene_, light_groups_));
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const bool drifts = i >= order_.size() && i < list_count();
+        if (!drifts) rows[i] = group_of(light(i), scene_, light_groups_);
+    }
+    for (const std::uint32_t number : directional_order_) {
+        rows.push_back(group_of(own_[number], scene_, light_groups_));
+    }
+    input_.extras.groups = groups_.reserve(rows.size());
+    kilolux::upload<std::uint8_t>(gpu_, *input_.extras.groups, rows);
+}
+
 // Uploads the lights that the host places.
 void LightSource::upload() {
+    if (!light_groups_.empty()) upload_groups();
     if (!scene_.aimed_profiles.empty()) {
         const auto row_of = [&](const SceneLight& light) {
             return aimed_profile(light, scene_, profile_starts_);
@@ -191,8 +215,7 @@ void LightSource::upload() {
         input_.extras.profiles = upload_extras(profiles_, row_of({}), row_of);
     }
     if (has_area_lights()) {
-        const SceneLight drifting_light = drifting() > 0 ? generated_.first() : SceneLight();
-        input_.extras.shapes = upload_extras(shapes_, shape_row(drifting_light), shape_row);
+        input_.extras.shapes = upload_extras(shapes_, shape_row(drifting_light()), shape_row);
     }
     const std::span<WorldLight> rows = move_.stage(row_count() - drifting());
     tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {

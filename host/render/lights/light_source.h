@@ -46,6 +46,9 @@ class LightSource {
     /// Replaces the ranges of lights that lack one.
     void set_tails(const RenderSettings& settings);
 
+    /// Replaces the groups that lights are in.
+    void set_groups(const std::vector<LightGroup>& groups);
+
     /// The lights at `time` [s] of the scene as it is now; sets their counts, and how many rows
     /// were uploaded. The camera places the headlights, and its position decides which lights are
     /// too far away to be used.
@@ -70,6 +73,8 @@ class LightSource {
     void plant_tree(const std::vector<std::uint32_t>& members);
     void upload();
     void upload_tables();
+    void upload_groups();
+    SceneLight drifting_light() const { return drifting() > 0 ? generated_.first() : SceneLight(); }
     bool has_area_lights() const;
     template <typename Row>
     DeviceArray<Row> upload_extras(GrowingArray<Row>& to, const Row& drifting_row, auto&& row_of);
@@ -102,6 +107,8 @@ class LightSource {
     std::vector<float> profile_tables_, profile_starts_;
     GrowingArray<AimedProfile> profiles_;
     GrowingArray<LightShape> shapes_;
+    GrowingArray<std::uint8_t> groups_;
+    std::vector<LightGroup> light_groups_;
     GrowingArray<float> uploaded_tables_;
     // With Tails::tree, the lights that are in no list: their rows follow those of order_.
     LightTree tree_;

@@ -95,8 +95,11 @@ struct Need {
     Bytes largest_element = 0;  // of a band's pixel in one buffer
 };
 
+// Layers of groups' light have as many channels as radiance has.
 Bytes layer_bytes(const RenderSettings& settings) {
-    return settings.want.aovs.size() * most_aov_channels() * sizeof(float);
+    const std::size_t groups = settings.light_groups.size();
+    return settings.want.aovs.size() * most_aov_channels() * sizeof(float) +
+           (groups > 0 ? (groups + 1) * Radiance::kPixelBytes : 0);
 }
 
 // Bytes of a pixel of the pictures on the host.
@@ -128,20 +131,22 @@ Bytes scene_device_bytes(const Scene& scene, const RenderSettings& settings, con
 // Bytes of a pixel of a band.
 Bytes band_pixel_bytes(const RenderSettings& settings, const ScenePlan& plan, bool ids,
                        bool blends) {
-    const bool decodes = settings.want.pixels();
+    const bool decodes = reads_pixels(settings);
+    const std::size_t groups = settings.light_groups.size();
     Bytes lists = BinPixels::kPixelBytes;
     if (plan.kernels.shadows) lists += ShadowOrigins::kPixelBytes;
-    Bytes bytes = static_cast<Bytes>(plan.gbuffer_bytes_per_pixel) + lists + kBandPixel;
+    Bytes bytes = static_cast<Bytes>(plan.gbuffer_bytes_per_pixel) + lists + kBandPixel +
+                  2 * groups * Radiance::kPixelBytes;  // and on the host
     if (blends) {
         bytes += static_cast<Bytes>(plan.of_layers().gbuffer_bytes_per_pixel) + lists +
-                 Layers::kPixelBytes;
+                 Layers::kPixelBytes + groups * Radiance::kPixelBytes;
     }
     if (ids) bytes += RasterTriangles::kPixelBytes;  // or as many that OpenGL hands over
     if (ids && settings.auto_samples.on) bytes += MaskTiles::kPixelBytes;
     if (settings.auto_samples.on) {
         bytes += AdaptiveSamples::kPixelBytes;
     } else if (settings.samples > 1) {
-        bytes += SumSamples::kPixelBytes;
+        bytes += (1 + groups) * SumSamples::kPixelBytes;
     }
     if (decodes || settings.want.counts) bytes += 2 * CountLights::kPixelBytes;  // and on the host
     if (decodes) bytes += 2 * DecodeGBuffer::kPixelBytes + layer_bytes(settings);
@@ -178,8 +183,9 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
     need.fixed += width * tile_rows * target_pixel;
     need.band_pixel = band_pixel_bytes(settings, plan, ids, blends);
     need.largest_element =
-        std::max<Bytes>(settings.want.pixels() ? DecodeGBuffer::kPixelBytes : Radiance::kPixelBytes,
-                        static_cast<Bytes>(plan.of_layers().gbuffer_bytes_per_pixel));
+        std::max<Bytes>({reads_pixels(settings) ? DecodeGBuffer::kPixelBytes : 0,
+                         (1 + settings.light_groups.size()) * Radiance::kPixelBytes,
+                         static_cast<Bytes>(plan.of_layers().gbuffer_bytes_per_pixel)});
     return need;
 }
 

@@ -146,6 +146,7 @@ ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings,
     features.point_lights = light_count > 0;
     features.area_lights = has_area_lights(scene.lights, settings.lights);
     if (features.area_lights) check_area_lights(shading, settings.shadows);
+    features.light_groups = static_cast<int>(settings.light_groups.size());
     features.wide_light_index = light_count > 65536;
     features.shadows = settings.shadows != Shadows::off && triangle_count(scene) > 0;
     if (settings.tails == Tails::stochastic && std::ranges::any_of(scene.lights, lacks_range)) {
@@ -156,6 +157,11 @@ ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings,
             ? static_cast<std::uint64_t>(std::ranges::count_if(scene.lights, is_for_tree))
             : 0;
     if (in_tree > 0) {
+        if (features.light_groups > 0) {
+            throw UsageError(
+                "light groups: a node of the light tree has lights of several groups; take --tails "
+                "bounded or exact");
+        }
         if (features.alpha_blend) {
             throw UsageError(
                 "tails tree: not for scenes with surfaces that blend or transmit; take --tails "

@@ -75,6 +75,16 @@ void check_view(const RenderSettings& settings) {
     }
 }
 
+void check_light_groups(const RenderSettings& settings) {
+    if (settings.light_groups.empty()) return;
+    if (is_forward(settings.renderer)) {
+        throw UsageError("light groups: the forward renderers have none; take --renderer deferred");
+    }
+    if (settings.auto_samples.on) {
+        throw UsageError("light groups: not with --samples auto; give a number of samples");
+    }
+}
+
 }  // namespace
 
 void check_settings(const RenderSettings& settings) {
@@ -82,6 +92,7 @@ void check_settings(const RenderSettings& settings) {
     check_shadows(settings);
     check_tails(settings);
     check_view(settings);
+    check_light_groups(settings);
 }
 
 std::string area_lights_problem(int shading, Shadows shadows) {

@@ -137,11 +137,21 @@ glm::dmat3 axes_of(const SceneLight& light) {
     return {x, glm::cross(z, x), z};
 }
 
-void add_light(ExportedNodes& out, const SceneLight& light) {
+// A light's node with what the scene says of it.
+Json light_node(const SceneLight& light, const Scene& scene) {
+    Json node = Json::object();
+    if (light.node < 0) return node;
+    const LightNode& from = scene.light_nodes[static_cast<std::size_t>(light.node)];
+    if (!from.name.empty()) node["name"] = from.name;
+    if (!from.group.empty()) at_path(node, kExtrasGroup) = from.group;
+    return node;
+}
+
+void add_light(ExportedNodes& out, const SceneLight& light, const Scene& scene) {
     const std::string extension(kind_of(light).extension);
     const auto* const place = std::ranges::find(kLightExtensions, kind_of(light).extension);
     Json& lights = out.lights[extension]["lights"];
-    Json node = Json::object();
+    Json node = light_node(light, scene);
     node["extensions"][extension]["light"] = lights.size();
     lights.push_back(light_json(light, static_cast<std::size_t>(place - kLightExtensions.begin())));
     if (!kind_of(light).is_aimed) {
@@ -161,7 +171,8 @@ void add_profile_light(ExportedNodes& out, const SceneLight& light, const Scene&
     add_color(use, light);
     glm::dmat3 axes = axes_of(light);
     if (profile.mirrored) axes[1] = -axes[1];
-    Json node{{"matrix", matrix_json(with_axes(axes, glm::dvec4(light.position, 1.0)))}};
+    Json node = light_node(light, scene);
+    node["matrix"] = matrix_json(with_axes(axes, glm::dvec4(light.position, 1.0)));
     node["extensions"]["EXT_lights_ies"] = std::move(use);
     out.roots.push_back(out.nodes.size());
     out.nodes.push_back(std::move(node));
@@ -218,7 +229,7 @@ ExportedNodes export_nodes(const Scene& scene, const std::vector<int>& mesh_of) 
         if (light.profile >= 0) {
             add_profile_light(out, light, scene);
         } else {
-            add_light(out, light);
+            add_light(out, light, scene);
         }
     }
     return out;

@@ -94,6 +94,7 @@ void add_profile_lights(const GltfDocument& document, const PlacedNodes& nodes, 
         SceneLight light = light_of(*use, scene.webs[web], nodes.world_from_node[n]);
         if (nodes.visibility[n] != NodeVisibility::visible) light.intensity = glm::vec3(0.0f);
         light.profile = static_cast<int>(scene.aimed_profiles.size());
+        light.node = static_cast<int>(n);
         const bool mirrored = glm::determinant(glm::dmat3(nodes.world_from_node[n])) < 0.0;
         scene.aimed_profiles.push_back({web, mirrored});
         scene.lights.push_back(light);

@@ -180,11 +180,33 @@ std::vector<SceneLight> convert_lights(const GltfDocument& document, const Place
             if (use == nullptr || !use->Has("light")) continue;
             const auto light = static_cast<std::size_t>(member_or(*use, "light", 0));
             lights.push_back(convert_light(document, e, light, nodes.world_from_node[n]));
+            lights.back().node = static_cast<int>(n);
             // A light that is hidden for a while stays, dark, so that kernels for its kind do.
             if (nodes.visibility[n] != NodeVisibility::visible) lights.back().intensity = {};
         }
     }
     return lights;
+}
+
+std::vector<LightNode> read_light_nodes(const GltfDocument& document) {
+    std::vector<LightNode> out(document.model.nodes.size());
+    for (std::size_t n = 0; n < out.size(); ++n) {
+        const tinygltf::Node& node = document.model.nodes[n];
+        bool has_light = find_extension(node.extensions, kPhotometric) != nullptr;
+        for (std::size_t e = 0; e < kLightExtensions.size(); ++e) {
+            const auto* use = find_extension(node.extensions, std::string(kLightExtensions[e]));
+            if (use == nullptr || !use->Has("light")) continue;
+            has_light = true;
+            const auto light = static_cast<std::size_t>(member_or(*use, "light", 0));
+            const json* group = find_member(document.lights[e][light], kExtrasGroup);
+            if (group != nullptr && group->is_string()) out[n].group = *group;
+        }
+        if (!has_light) continue;
+        out[n].name = node.name;
+        const std::string group = member_or<std::string>(node.extras, "group", "");
+        if (!group.empty()) out[n].group = group;
+    }
+    return out;
 }
 
 void report_lights(const GltfDocument& document) {

@@ -14,6 +14,9 @@ bool aim_light(SceneLight& light, const glm::dmat4& world_from_node);
 /// and counts those lights.
 std::vector<SceneLight> convert_lights(const GltfDocument& document, const PlacedNodes& nodes);
 
+/// What the file says of the nodes that have lights, those of photometric webs, too; by nodes.
+std::vector<LightNode> read_light_nodes(const GltfDocument& document);
+
 /// Reports cones that KHR_lights_punctual does not allow, whose lights get the nearest ones, sizes
 /// that are not above 0, and radii of lights that cannot have one.
 void report_lights(const GltfDocument& document);

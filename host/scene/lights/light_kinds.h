@@ -20,6 +20,8 @@ namespace kilolux {
 inline constexpr std::string_view kPunctual = "KHR_lights_punctual";
 inline constexpr std::string_view kArea = "EXT_lights_area";
 inline constexpr std::array kLightExtensions = {kPunctual, kArea};
+/// Its lights are photometric webs, apart from these.
+inline constexpr std::string_view kPhotometric = "EXT_lights_ies";
 
 /// The intensity of a light whose file has none: [cd], [lx], of area lights [nit].
 constexpr double default_intensity(std::string_view extension) {
@@ -139,6 +141,7 @@ inline constexpr auto kLightNumbers = std::to_array<LightNumber>({
     {"radius", &SceneLight::radius, &LightKind::has_radius, {"extras.radius"}, true},
 });
 inline constexpr std::string_view kTwoSided = "extras.twoSided";  // of flat lights in a file
+inline constexpr std::string_view kExtrasGroup = "extras.group";  // a text: see light_groups.h
 
 /// Properties that applications define: files may have them with another meaning.
 constexpr bool is_extra(std::string_view path) { return path.starts_with("extras."); }

@@ -4,13 +4,6 @@
 #include <cassert>
 
 namespace kilolux {
-namespace {
-
-// Floats of a picture: three planes of whole vectors of lanes.
-uint floats_of(const View& view) { return 3 * view.stride * view.height; }
-
-}  // namespace
-
 SumSamples::SumSamples(const Gpu& gpu, const Tuning& tuning)
     : group_(tuning.light_group),
       program_(build_program(gpu, kSumSamplesStage)),
@@ -19,21 +12,22 @@ SumSamples::SumSamples(const Gpu& gpu, const Tuning& tuning)
       sums_(gpu, kSumSamplesStage),
       mean_(gpu, kSumSamplesStage) {}
 
-WorkSize SumSamples::work_size() const { return add_.vector_items(floats_of(view_), group_); }
-
 void SumSamples::add(const Radiance& radiance, StageTimer& timer) {
-    view_ = radiance.view;
-    const uint size = floats_of(view_);
+    last_ = radiance;
+    const std::size_t size = radiance.floats();
     const DeviceArray<float> sums = sums_.reserve(kSumFloats * size);
-    add_.enqueue(work_size(), timer, size, count_ == 0 ? 1u : 0u, radiance.planes, sums);
+    add_.enqueue(work_size(), timer, static_cast<uint>(size), count_ == 0 ? 1u : 0u,
+                 radiance.planes, sums);
     ++count_;
 }
 
+WorkSize SumSamples::work_size() const { return add_.vector_items(last_.floats(), group_); }
+
 Radiance SumSamples::mean(StageTimer& timer) {
     assert(count_ > 0);
-    Radiance out{mean_.reserve(floats_of(view_)), view_};
-    mean_kernel_.enqueue(work_size(), timer, floats_of(view_), static_cast<float>(count_),
-                         sums_.get(), out.planes);
+    Radiance out{mean_.reserve(last_.floats()), last_.view, last_.groups};
+    mean_kernel_.enqueue(work_size(), timer, static_cast<uint>(last_.floats()),
+                         static_cast<float>(count_), sums_.get(), out.planes);
     return out;
 }
 

@@ -70,10 +70,12 @@ Radiance Shade::enqueue(const LitPixels& lit, StageTimer& timer, const SeenInput
     Kernel& kernel = kernels_.at(tone_curve);
     const View& view = lit.gbuffer.view;
     ShadingOutput out{ambient_, {}, {}};
+    Radiance light{{}, view};
     if (display) {
         out.display = *display;
     } else {
-        out.radiance = resources_.radiance(view).planes;
+        light = resources_.radiance(view);
+        out.radiance = light.planes;
     }
     if (features_.sampled_shadows)
         out.variance = variance_.reserve(std::size_t{view.stride} * view.height);
@@ -85,7 +87,7 @@ Radiance Shade::enqueue(const LitPixels& lit, StageTimer& timer, const SeenInput
     } else {
         kernel.enqueue(items, timer, stored, seen.words, seen.samples, out);
     }
-    return {out.radiance, view};
+    return light;
 }
 
 ShadeAll::ShadeAll(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
@@ -103,11 +105,12 @@ ShadeAll::ShadeAll(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& f
 Radiance ShadeAll::enqueue(const GBuffer& gbuffer, const PreparedLights& lights, StageTimer& timer,
                            const ShadowInput& shadows, const ShadowSamples& samples) {
     const View& view = gbuffer.view;
-    ShadingOutput out{ambient_, resources_.radiance(view).planes, {}};
+    const Radiance light = resources_.radiance(view);
+    ShadingOutput out{ambient_, light.planes, {}};
     if (samples_shadows_) out.variance = variance_.reserve(std::size_t{view.stride} * view.height);
     kernel_.enqueue(resources_.work_size(kernel_, view), timer, gbuffer,
                     resources_.stored_lights(lights, timer), shadows, samples, out);
-    return {out.radiance, view};
+    return light;
 }
 
 // Sampled shadows shade twice: with all lights, and without hidden ones that were picked.

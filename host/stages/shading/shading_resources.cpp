@@ -79,7 +79,9 @@ PreparedLights ShadingResources::stored_lights(const PreparedLights& lights, Sta
 }
 
 Radiance ShadingResources::radiance(const View& view) {
-    return {radiance_.reserve(std::size_t{3} * view.stride * view.height), view};
+    Radiance out{{}, view, static_cast<uint>(features_.light_groups)};
+    out.planes = radiance_.reserve(out.floats());
+    return out;
 }
 
 }  // namespace kilolux

@@ -29,7 +29,8 @@ class Frame:
     display   uint8 [height, width, 4], sRGB with the options' exposure and tone curve
     radiance  float32 [height, width, 3], linear Rec. 709, unclamped
     aovs      by the names of the option `aov`: float32 or uint32, [height, width] or
-              [height, width, 3]; metres and unit vectors in the world
+              [height, width, 3]; metres and unit vectors in the world. Those of `light_groups`
+              are "light.NAME"
     stats     the document of --stats; null for what was not counted
     """
 
@@ -37,6 +38,12 @@ class Frame:
     radiance: np.ndarray
     aovs: dict[str, np.ndarray]
     stats: dict[str, Any]
+
+    @property
+    def lights(self) -> dict[str, np.ndarray]:
+        """The light of each group of the option `light_groups` and of the "rest", as radiance."""
+        begin = "light."
+        return {name[len(begin):]: light for name, light in self.aovs.items() if name.startswith(begin)}
 
     def __repr__(self) -> str:
         height, width = self.display.shape[:2]

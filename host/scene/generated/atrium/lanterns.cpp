@@ -78,7 +78,11 @@ MeshBuilder mesh_of(const Lamp& lamp) {
 class Lamps {
  public:
     Lamps(Scene& scene, const Lamp& lamp, std::uint64_t seed)
-        : scene_(scene), lamp_(lamp), seed_(seed) {
+        : scene_(scene),
+          lamp_(lamp),
+          seed_(seed),
+          node_(static_cast<int>(scene.light_nodes.size())) {
+        scene.light_nodes.push_back({lamp.name, ""});
         if (!lamp.has_mesh) return;
         const int material = add_glow(scene, lamp);
         mesh_ = add_mesh(scene, mesh_of(lamp).build(lamp.name, material, 1.0, false));
@@ -89,6 +93,7 @@ class Lamps {
         if (lamp_.has_mesh) place(scene_, mesh_, world);
         SceneLight& light = scene_.lights.emplace_back();
         light.type = lamp_.type;
+        light.node = node_;
         light.position = glm::dvec3(world[3]);
         light.direction = {0, -1, 0};
         light.side = glm::dvec3(world[0]);
@@ -113,6 +118,7 @@ class Lamps {
     Scene& scene_;
     Lamp lamp_;
     std::uint64_t seed_;
+    int node_;
     int mesh_ = -1;
 };
 

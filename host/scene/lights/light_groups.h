@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/scene/scene.h"
+
+namespace kilolux {
+
+/// Lights whose light a picture holds in a layer of its own.
+struct LightGroup {
+    std::string name;                   // letters, digits, - and _
+    std::vector<std::string> patterns;  // a light that matches one of them is in the group
+    std::vector<int> nodes;             // or is of one of these nodes: see SceneLight::node
+    bool operator==(const LightGroup&) const = default;
+};
+
+/// Most groups: kernels hold a sum for each.
+inline constexpr std::size_t kMostLightGroups = 64;
+/// The group of all light that is in no other; no group may have its name.
+inline constexpr std::string_view kRestGroup = "rest";
+/// In place of groups: a group for each light of the scene's file.
+inline constexpr std::string_view kEachLight = "each";
+
+/// What patterns may say, for --help.
+std::string light_pattern_meaning();
+
+/// Groups from `NAME=PATTERN[+PATTERN...],...`, or kEachLight; none for an empty text. Throws
+/// UsageError, which names `option`.
+std::vector<LightGroup> parse_light_groups(const std::string& option, const std::string& text);
+std::string text_of(const std::vector<LightGroup>& groups);
+
+/// The groups of a scene: kEachLight becomes a group for each light, named as its node. Throws
+/// UsageError for a group that no light is in, and for more than kMostLightGroups.
+std::vector<LightGroup> light_groups_of(const Scene& scene, std::uint64_t generated,
+                                        const std::vector<LightGroup>& asked);
+
+/// The number of the first group that the light is in, from 1 on; 0: it is in none.
+std::uint8_t group_of(const SceneLight& light, const Scene& scene,
+                      std::span<const LightGroup> groups);
+
+}  // namespace kilolux

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+// Layers of the light of groups of lights.
+#include <algorithm>
+#include <functional>
+
+#include "host/base/error.h"
+#include "host/picture/aovs.h"
+#include "host/scene/lights/light_groups.h"
+#include "tests/render/shadows/soft_scenes.h"
+#include "tests/support/glass_pictures.h"
+
+namespace kilolux {
+namespace {
+
+// grid_with_every_light() and the swarm, whose spots have names, in a light that is no light's.
+Scene named_grid() {
+    Scene scene = grid_with_every_light();
+    scene.light_nodes = {{"left", ""}, {"right", "lamps"}};
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        SceneLight& light = scene.lights[i];
+        if (kind_of(light).has_cone) light.node = i % 2 == 0 ? 0 : 1;
+    }
+    return scene;
+}
+
+const char* const kGroups =
+    "left=left,right=group:lamp*,sun=kind:directional,swarm=from:generated+kind:sphere";
+
+RenderSettings grouped(const Scene& scene, RenderSettings settings, const char* groups = kGroups) {
+    settings.light_groups = light_groups_of(scene, settings.lights.count,
+                                            parse_light_groups("--light-groups", groups));
+    return settings;
+}
+
+// The scene with only the lights for which `stays` holds; the others stay dark, in their places.
+Scene only(Scene scene, const std::function<bool(const SceneLight&)>& stays) {
+    for (SceneLight& light : scene.lights) {
+        if (!stays(light)) light.intensity *= 1e-30f;
+    }
+    return scene;
+}
+
+const Layer& layer_of(const Frame& frame, const std::string& group) {
+    const auto found = std::ranges::find(frame.aovs, kLightLayers + group, &Layer::name);
+    if (found == frame.aovs.end()) throw Error("no layer " + group);
+    return *found;
+}
+
+std::string operator+(std::string_view a, const std::string& b) { return std::string(a) + b; }
+
+// That the layers of all groups and of the rest add up to the picture, whose bits are those of a
+// picture without groups, and that every group lights something.
+Frame expect_whole(const Scene& scene, RenderSettings settings) {
+    const Frame frame = render_once(scene, settings);
+    std::vector<double> sum(frame.radiance.size());
+    for (const Layer& layer : frame.aovs) {
+        if (!layer.name.starts_with(kLightLayers)) continue;
+        EXPECT_GT(*std::ranges::max_element(layer.values), 1e-4f) << layer.name;
+        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += layer.values[i];
+    }
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+        if (std::abs(sum[i] - frame.radiance[i]) > 1e-6 * frame.radiance[i]) {
+            ADD_FAILURE() << i << ": " << sum[i] << ", not " << frame.radiance[i];
+            break;
+        }
+    }
+    settings.light_groups.clear();
+    EXPECT_EQ(render_once(scene, settings).radiance, frame.radiance);
+    return frame;
+}
+
+// The largest difference of a layer and a picture, relative to the largest value of the picture.
+double layer_error(const Layer& layer, const std::vector<float>& picture) {
+    double most = 0.0, error = 0.0;
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+        most = std::max<double>(most, picture[i]);
+        error = std::max(error, std::abs(double{layer.values[i]} - picture[i]));
+    }
+    return error / most;
+}
+
+TEST(LightGroups, AreThePicturesOfTheirLightsAlone) {
+    const Scene scene = named_grid();
+    RenderSettings settings = small_settings();
+    settings.shading = Shading::pbr;
+    const Frame frame = expect_whole(scene, grouped(scene, settings));
+    settings.ambient = 0.0f;
+    const auto expect_alone = [&](const char* group, std::uint64_t swarm, const auto& stays) {
+        settings.lights.count = swarm;
+        Scene alone = only(scene, stays);
+        for (Material& material : alone.materials) material.emissive = glm::vec3(0.0f);
+        EXPECT_LT(layer_error(layer_of(frame, group), render_once(alone, settings).radiance), 1e-6)
+            << group;
+    };
+    expect_alone("left", 0, [](const SceneLight& light) { return light.node == 0; });
+    expect_alone("right", 0, [](const SceneLight& light) { return light.node == 1; });
+    expect_alone("sun", 0, [](const SceneLight& light) { return !kind_of(light).is_placed; });
+    expect_alone("swarm", settings.lights.count, [](const SceneLight&) { return false; });
+}
+
+TEST(LightGroups, ListsChangeNoBitOfThem) {
+    const Scene scene = named_grid();
+    for (const Shadows shadows : {Shadows::off, Shadows::exact, Shadows::sampled}) {
+        RenderSettings settings = grouped(scene, small_settings());
+        settings.shadows = shadows;
+        const Frame listed = expect_whole(scene, settings);
+        settings.renderer = RendererKind::deferred_all;
+        settings.kernels.lanes = 4;
+        const Frame all = render_once(scene, settings);
+        for (std::size_t i = 0; i < listed.aovs.size(); ++i) {
+            EXPECT_EQ(listed.aovs[i].values, all.aovs[i].values) << listed.aovs[i].name;
+        }
+    }
+}
+
+TEST(LightGroups, AreInSamplesAndBandsAlike) {
+    const Scene scene = named_grid();
+    RenderSettings settings = grouped(scene, small_settings());
+    settings.samples = 3;
+    const Frame whole = expect_whole(scene, settings);
+    settings.band_rows = 16;
+    const Frame banded = render_once(scene, settings);
+    for (std::size_t i = 0; i < whole.aovs.size(); ++i) {
+        EXPECT_EQ(whole.aovs[i].values, banded.aovs[i].values) << whole.aovs[i].name;
+    }
+}
+
+TEST(LightGroups, OfGlassAreWhatIsSeenThroughIt) {
+    Scene scene = glass_scene();
+    scene.light_nodes = {{"near", ""}};
+    for (std::size_t i = 0; i < scene.lights.size(); i += 3) scene.lights[i].node = 0;
+    RenderSettings settings = small_settings(96, 64, 0);
+    for (const Shadows shadows : {Shadows::off, Shadows::exact}) {
+        settings.shadows = shadows;
+        expect_whole(scene, grouped(scene, settings, "near=near"));
+    }
+}
+
+TEST(LightGroups, OfLightsWithASizeHaveTheirSoftShadows) {
+    Scene scene = board_below(panel(LightType::rectangle)).scene;
+    scene.lights.push_back(panel(LightType::sphere));
+    scene.lights.back().position += glm::dvec3(1.5, 0.0, 0.5);
+    const RenderSettings settings =
+        grouped(scene, soft_settings(48, 27, 4), "flat=kind:rect,round=kind:sphere");
+    expect_whole(scene, settings);
+}
+
+TEST(LightGroups, FollowAChangeOfGroups) {
+    const Scene scene = named_grid();
+    RenderSettings settings = grouped(scene, small_settings(), "a=left");
+    Renderer renderer(scene, settings);
+    const Camera camera = first_camera(scene);
+    const Frame first = renderer.render(camera, 0.0);
+    settings = grouped(scene, settings, "a=right");
+    renderer.change(settings);
+    const Frame second = renderer.render(camera, 0.0);
+    EXPECT_NE(layer_of(first, "a").values, layer_of(second, "a").values);
+    EXPECT_EQ(layer_of(second, "a").values,
+              layer_of(render_once(scene, settings), "a").values);
+}
+
+TEST(LightGroups, EachIsAGroupOfEachNode) {
+    const Scene scene = named_grid();
+    const auto groups = light_groups_of(scene, 0, parse_light_groups("--light-groups", "each"));
+    ASSERT_EQ(groups.size(), 2u);
+    EXPECT_EQ(groups[0].name, "left");
+    EXPECT_EQ(groups[1].name, "right");
+    EXPECT_EQ(group_of(scene.lights[1], scene, groups), 2);
+    EXPECT_EQ(group_of(scene.lights.back(), scene, groups), 0);
+}
+
+TEST(LightGroups, SayWhatIsWrong) {
+    const Scene scene = named_grid();
+    struct Case {
+        const char* groups;
+        const char* reason;
+    } cases[] = {{"key", "--light-groups: 'key' is not NAME=PATTERN"},
+                 {"k y=a", "'k y' is no name of a group"},
+                 {"rest=a", "'rest' is no name of a group"},
+                 {"a=left,a=right", "two groups are named 'a'"},
+                 {"a=colour:red", "a: 'colour:red' is no pattern; a pattern is GLOB (name of the"},
+                 {"a=", "a: '' is no pattern"},
+                 {"a=lamp", "no light is in 'a' (lamp)"},
+                 {"a=left,b=l*", "no light is in 'b' (l*)"}};
+    for (const Case& c : cases) {
+        const std::string message =
+            message_of<UsageError>([&] { grouped(scene, small_settings(96, 54, 0), c.groups); });
+        EXPECT_TRUE(contains(message, c.reason)) << message;
+    }
+    RenderSettings settings = grouped(scene, small_settings());
+    settings.auto_samples.on = true;
+    expect_refused(scene, settings, "light groups: not with --samples auto");
+    settings.auto_samples.on = false;
+    settings.renderer = RendererKind::forward;
+    expect_refused(scene, settings, "light groups: the forward renderers have none");
+}
+
+}  // namespace
+}  // namespace kilolux
