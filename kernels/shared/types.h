@@ -113,6 +113,7 @@ static inline bool lane_any(MASK m) {
 #include <cmath>
 #include <cstdint>
 namespace kilolux {
+using uchar = std::uint8_t;
 using uint = std::uint32_t;
 using ulong = std::uint64_t;
 struct alignas(16) float4 {

@@ -12,7 +12,6 @@
 namespace kilolux {
 namespace {
 
-constexpr const char* kExtension = "EXT_lights_ies";
 constexpr std::uint64_t kMostTextBytes = std::uint64_t{16} << 20;  // a real file has some 50 kB
 
 std::string read_text(const GltfDocument& document, const tinygltf::Value& light,
@@ -74,12 +73,12 @@ SceneLight light_of(const tinygltf::Value& use, const PhotometricWeb& web,
 
 std::vector<PhotometricWeb> read_profiles(const GltfDocument& document) {
     std::vector<PhotometricWeb> webs;
-    const tinygltf::Value* extension = find_extension(document.model.extensions, kExtension);
+    const tinygltf::Value* extension = find_extension(document.model.extensions, kPhotometric);
     if (extension == nullptr || !extension->Has("lights")) return webs;
     const tinygltf::Value& lights = extension->Get("lights");
     for (std::size_t i = 0; i < lights.ArrayLen(); ++i) {
         webs.push_back(read_profile(document, lights.Get(static_cast<int>(i)),
-                                    fmt::format("extensions.{}.lights[{}]", kExtension, i)));
+                                    fmt::format("extensions.{}.lights[{}]", kPhotometric, i)));
     }
     profile_starts(webs);
     return webs;
@@ -88,7 +87,7 @@ std::vector<PhotometricWeb> read_profiles(const GltfDocument& document) {
 void add_profile_lights(const GltfDocument& document, const PlacedNodes& nodes, Scene& scene) {
     scene.aimed_profiles.clear();
     for (const std::size_t n : nodes.in_scene) {
-        const auto* use = find_extension(document.model.nodes[n].extensions, kExtension);
+        const auto* use = find_extension(document.model.nodes[n].extensions, kPhotometric);
         if (use == nullptr || nodes.visibility[n] == NodeVisibility::hidden) continue;
         const auto web = static_cast<std::size_t>(member_or(*use, "light", 0));
         SceneLight light = light_of(*use, scene.webs[web], nodes.world_from_node[n]);

@@ -21,7 +21,7 @@ inline constexpr std::string_view kPunctual = "KHR_lights_punctual";
 inline constexpr std::string_view kArea = "EXT_lights_area";
 inline constexpr std::array kLightExtensions = {kPunctual, kArea};
 /// Its lights are photometric webs, apart from these.
-inline constexpr std::string_view kPhotometric = "EXT_lights_ies";
+inline constexpr const char* kPhotometric = "EXT_lights_ies";
 
 /// The intensity of a light whose file has none: [cd], [lx], of area lights [nit].
 constexpr double default_intensity(std::string_view extension) {
