@@ -54,9 +54,9 @@ static inline void prefetch_next_tile(GBuffer g, LightTarget to, uint x, uint y)
     prefetch_to_write(to.codes + place);
 #else
     uint plane = g.view.stride * g.view.height;
-    prefetch_to_write(to.radiance + place);
-    prefetch_to_write(to.radiance + plane + place);
-    prefetch_to_write(to.radiance + 2 * plane + place);
+    for (uint i = 0; i < 3u + 3u * LIGHT_GROUPS; ++i) {
+        prefetch_to_write(to.radiance + i * plane + place);
+    }
 #endif
 }
 #endif

@@ -55,8 +55,8 @@ static inline void shade_item(GBuffer g, LightSource from, LightSet set, ShadeOu
     set.candidates.tile = tile_key(view, out.samples.seed, at.x, at.y);
 #endif
 #if LIGHT_GROUPS
-    RunningSum groups[1 + LIGHT_GROUPS];
-    for (uint i = 0u; i <= LIGHT_GROUPS; ++i) groups[i] = start_sum(zero_sum());
+    LightSum groups[1 + LIGHT_GROUPS];
+    for (uint i = 0u; i <= LIGHT_GROUPS; ++i) groups[i] = zero_sum();
     set.groups = groups;
 #endif
     LightSum sum = source_sum(from, g, at, item, wanted, p, set);
@@ -70,12 +70,11 @@ static inline void shade_item(GBuffer g, LightSource from, LightSet set, ShadeOu
     store_light(out.to, view, item.pixels, select3(item.shown, color, zero3()));
 #if LIGHT_GROUPS
     for (uint i = 1u; i <= LIGHT_GROUPS; ++i) {
-        LightSum lights = finish_sum(groups[i]);
 #if SAMPLED_SHADOWS
         FV3 whole = load_radiance(out.samples.whole + group_planes(view, i), view, item.pixels);
-        FV3 lit = without_hidden(set.pick, whole, lights);
+        FV3 lit = without_hidden(set.pick, whole, groups[i]);
 #else
-        FV3 lit = reflected_radiance(s, p, lights);
+        FV3 lit = reflected_radiance(s, p, groups[i]);
 #endif
         store_group_light(out.to, view, i, item.pixels, select3(item.shown, lit, zero3()));
     }

@@ -2,7 +2,7 @@
 // The sum of evaluate() over a list of lights, or with ALL_LIGHTS over lights 0 .. count - 1, for
 // VW pixels. With STAGE > 0 a work-group reads that many lights at a time into local memory, which
 // GPUs read faster than global memory through its cache. With LIGHT_GROUPS each light also joins
-// the sum of its group: the compiler evaluates it once for both sums.
+// the sum of its group.
 #ifndef KILOLUX_DEVICE_SUM_LIGHTS_H
 #define KILOLUX_DEVICE_SUM_LIGHTS_H
 #include "kernels/device/light_index.h"
@@ -72,7 +72,7 @@ typedef struct LightSet {
     Candidates candidates;
 #endif
 #if LIGHT_GROUPS
-    RunningSum* groups;      // [1 + LIGHT_GROUPS]; 0: of the lights in no group
+    LightSum* groups;        // [1 + LIGHT_GROUPS]; 0: of the lights in no group
     uint first_directional;  // place of the directional lights in extras.groups
     MASK mine;               // lanes whose groups get the light
 #endif
@@ -104,31 +104,13 @@ static inline LightSet light_set(global const StoredLight* lights, LightExtras e
     return set;
 }
 
-#if LIGHT_GROUPS
-// The sum of its group that a light joins.
-static inline LightSum* group_block(LightSet set, uint light) {
-    RunningSum* group = set.groups + set.extras.groups[light];
-    *group = enter_block(*group, light);
-    return &group->block;
-}
-
-// The same of a directional light, which is in no block.
-static inline LightSum* group_total(LightSet set, uint i) {
-    return &set.groups[set.extras.groups[set.first_directional + i]].total;
-}
-
-// Adds what a light adds to its pixels to the sum at `group`.
-#define JOIN_GROUP(group, ADD) \
-    {                          \
-        LightSum* joined = (group);  \
-        ADD                    \
-    }
-#else
-#define JOIN_GROUP(group, ADD)
-#endif
+// The sum of its group that a light joins; `place`: in extras.groups.
+#define GROUP_OF(set, place) ((set).groups + (set).extras.groups[place])
+#define DIRECTIONAL_PLACE(set, i) ((set).first_directional + (i))
 
 static inline LightSum select_sum(MASK mask, LightSum a, LightSum b) {
-#define SELECT_TERM(has, term) a.term = select3(mask, a.term, b.term);
+#define SELECT_TERM(has, term) \
+    if (has) a.term = select3(mask, a.term, b.term);
     LIGHT_TERMS(SELECT_TERM)
     return a;
 }
@@ -279,19 +261,42 @@ static inline bool hides_any(LightSet set, uint entry) {
 #endif
 #if LIGHT_GROUPS
 // The light alone, so that its variance counts once; terms are added with the same bits.
-#define ADD_SAMPLED(set, entry, light, sum, group, ONE)                                       \
-    {                                                                                         \
-        LightSum taken = zero_sum();                                                          \
-        ADD_ALONE(set, entry, light, taken, ONE)                                              \
-        (sum) = add_sums(sum, taken);                                                         \
-        JOIN_GROUP(group,                                                                     \
-                   *joined = select_sum((set).mine, add_sums(*joined, taken), *joined);)      \
+#define ADD_SAMPLED(set, entry, light, sum, group, ONE)                           \
+    {                                                                             \
+        LightSum taken = zero_sum();                                              \
+        ADD_ALONE(set, entry, light, taken, ONE)                                  \
+        (sum) = add_sums(sum, taken);                                             \
+        *(group) = add_sums(*(group), select_sum((set).mine, taken, zero_sum())); \
     }
 #else
 #define ADD_SAMPLED(set, entry, light, sum, group, ONE) ADD_ALONE(set, entry, light, sum, ONE)
 #endif
 #endif
+#endif
 
+// A light that joins two sums is evaluated once, as a white one: a term of a sum is a weight times
+// the colour, by one fma, so no bit changes. Random ranges depend on the colour.
+#if LIGHT_GROUPS && !HAS_RANDOM_RANGES
+static inline ShadeLight weighed(ShadeLight light) {
+    light.color_scale.xyz = (float3)(1.0f);
+    return light;
+}
+
+static inline DirectionalLight weighed_directional(DirectionalLight light) {
+    light.color = (float4)(1.0f);
+    return light;
+}
+
+#define WEIGH(EVALUATED) LightSum weights = EVALUATED(zero_sum());
+#define LIT(sum, color, EVALUATED) add_colored(sum, weights, color)
+#else
+#define weighed(light) (light)
+#define weighed_directional(light) (light)
+#define WEIGH(EVALUATED)
+#define LIT(sum, color, EVALUATED) EVALUATED(sum)
+#endif
+
+#if SHADOWS
 #if TINTED_SHADOWS
 #define TINT_VIEW(set) (set).tints.scene.view
 // Where surfaces tint the light: `tinted_lanes` and each colour's `share`.
@@ -300,40 +305,59 @@ static inline bool hides_any(LightSet set, uint entry) {
     (set).tints.wanted = (lanes);    \
     MASK tinted_lanes = tinted((set).tints, light, &share);
 // There `sum` plus the share of the light alone, in place of `lit`.
-#define TINT(sum, lit, EVALUATED)                                           \
+#define TINT(sum, lit, color, EVALUATED)                                    \
     if (lane_any(tinted_lanes)) {                                           \
-        LightSum one = EVALUATED(zero_sum());                               \
+        LightSum one = LIT(zero_sum(), color, EVALUATED);                   \
         (lit) = select_sum(tinted_lanes, add_tinted(sum, share, one), lit); \
     }
 #else
 #define FIND_TINT(set, light, lanes)
-#define TINT(sum, lit, EVALUATED)
+#define TINT(sum, lit, color, EVALUATED)
 #endif
 
-#define ADD_LIT(sum, lanes, EVALUATED)       \
-    {                                        \
-        LightSum lit = EVALUATED(sum);       \
-        TINT(sum, lit, EVALUATED)            \
-        (sum) = select_sum(lanes, lit, sum); \
+#define ADD_LIT(sum, color, lanes, EVALUATED)      \
+    {                                              \
+        LightSum lit = LIT(sum, color, EVALUATED); \
+        TINT(sum, lit, color, EVALUATED)           \
+        (sum) = select_sum(lanes, lit, sum);       \
     }
-
-// ADD_SEEN(set, sum, group, seen, light, EVALUATED): adds a light where `seen`, to `group` also.
-// EVALUATED(sum): the sum with it, which is computed only if any lane sees it. light: as shadow
-// rays have it.
-#define ADD_SEEN(set, sum, group, seen, light, EVALUATED)                    \
-    {                                                                        \
-        MASK lanes = (seen);                                                 \
-        if (lane_any(lanes)) {                                               \
-            FIND_TINT(set, light, lanes)                                     \
-            ADD_LIT(sum, lanes, EVALUATED)                                   \
-            JOIN_GROUP(group, ADD_LIT(*joined, lanes&(set).mine, EVALUATED)) \
-        }                                                                    \
+#if LIGHT_GROUPS
+#define ADD_TO_GROUP(set, group, color, lanes, EVALUATED) \
+    {                                                     \
+        LightSum in_group = *(group);                     \
+        MASK joining = (lanes) & (set).mine;              \
+        ADD_LIT(in_group, color, joining, EVALUATED)      \
+        *(group) = in_group;                              \
     }
 #else
-#define ADD_SEEN(set, sum, group, seen, light, EVALUATED)                                        \
-    {                                                                                            \
-        (sum) = EVALUATED(sum);                                                                  \
-        JOIN_GROUP(group, *joined = select_sum((set).mine, EVALUATED(*joined), *joined);)        \
+#define ADD_TO_GROUP(set, group, color, lanes, EVALUATED)
+#endif
+
+// ADD_SEEN(set, sum, group, color, seen, light, EVALUATED): adds a light of this colour where
+// `seen`, to `group` also. EVALUATED(sum): the sum with it, or with the white light; it is computed
+// only if any lane sees it. light: as shadow rays have it.
+#define ADD_SEEN(set, sum, group, color, seen, light, EVALUATED) \
+    {                                                            \
+        MASK lanes = (seen);                                     \
+        if (lane_any(lanes)) {                                   \
+            FIND_TINT(set, light, lanes)                         \
+            WEIGH(EVALUATED)                                     \
+            ADD_LIT(sum, color, lanes, EVALUATED)                \
+            ADD_TO_GROUP(set, group, color, lanes, EVALUATED)    \
+        }                                                        \
+    }
+#else
+#if LIGHT_GROUPS
+#define ADD_TO_GROUP(set, group, color, EVALUATED) \
+    *(group) = select_sum((set).mine, LIT(*(group), color, EVALUATED), *(group));
+#else
+#define ADD_TO_GROUP(set, group, color, EVALUATED)
+#endif
+#define ADD_SEEN(set, sum, group, color, seen, light, EVALUATED) \
+    {                                                            \
+        WEIGH(EVALUATED)                                         \
+        (sum) = LIT(sum, color, EVALUATED);                      \
+        ADD_TO_GROUP(set, group, color, EVALUATED)               \
     }
 #endif
 
@@ -386,12 +410,12 @@ static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p, L
             uint light = set.staged_indices[i];
             sum = enter_block(sum, light);
 #if SAMPLED_SHADOWS
-            ADD_SAMPLED(set, first + i, light, sum.block, group_block(set, light),
+            ADD_SAMPLED(set, first + i, light, sum.block, GROUP_OF(set, light),
                         EVALUATE(zero_sum(), p, set.staged[i], set.extras, light))
 #else
-#define STAGED_LIGHT(sum) EVALUATE(sum, p, set.staged[i], set.extras, light)
+#define STAGED_LIGHT(sum) EVALUATE(sum, p, weighed(set.staged[i]), set.extras, light)
             MARKED(set, first + i, light, sum.block,
-                   ADD_SEEN(set, sum.block, group_block(set, light),
+                   ADD_SEEN(set, sum.block, GROUP_OF(set, light), set.staged[i].color_scale,
                             sees_entry(set, first + i, light),
                             shadow_point_light(TINT_VIEW(set), set.staged[i]), STAGED_LIGHT))
 #endif
@@ -403,13 +427,14 @@ static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p, L
         uint light = light_of_entry(list, i);
         sum = enter_block(sum, light);
 #if SAMPLED_SHADOWS
-        ADD_SAMPLED(set, i, light, sum.block, group_block(set, light),
+        ADD_SAMPLED(set, i, light, sum.block, GROUP_OF(set, light),
                     EVALUATE(zero_sum(), p, LIGHT_AT(set.lights, light), set.extras, light))
 #else
-#define LISTED_LIGHT(sum) EVALUATE(sum, p, LIGHT_AT(set.lights, light), set.extras, light)
+#define LISTED_LIGHT(sum) EVALUATE(sum, p, weighed(LIGHT_AT(set.lights, light)), set.extras, light)
         MARKED(
             set, i, light, sum.block,
-            ADD_SEEN(set, sum.block, group_block(set, light), sees_entry(set, i, light),
+            ADD_SEEN(set, sum.block, GROUP_OF(set, light), LIGHT_AT(set.lights, light).color_scale,
+                     sees_entry(set, i, light),
                      shadow_point_light(TINT_VIEW(set), LIGHT_AT(set.lights, light)), LISTED_LIGHT))
 #endif
     }
@@ -423,12 +448,13 @@ static inline LightSum sum_directional(ShadingPoint p, LightSet set,
 #if HAS_DIRECTIONAL_LIGHTS
     for (uint i = 0; i < count; ++i) {
 #if SAMPLED_SHADOWS
-        ADD_SAMPLED(set, i, PICKED_DIRECTIONAL + i, sum, group_total(set, i),
+        ADD_SAMPLED(set, i, PICKED_DIRECTIONAL + i, sum, GROUP_OF(set, DIRECTIONAL_PLACE(set, i)),
                     evaluate_directional(zero_sum(), p, lights[i]))
 #else
-#define PARALLEL_LIGHT(sum) evaluate_directional(sum, p, lights[i])
-        ADD_SEEN(set, sum, group_total(set, i), sees_directional(set, i),
-                 shadow_directional_light(TINT_VIEW(set), lights[i]), PARALLEL_LIGHT)
+#define PARALLEL_LIGHT(sum) evaluate_directional(sum, p, weighed_directional(lights[i]))
+        ADD_SEEN(set, sum, GROUP_OF(set, DIRECTIONAL_PLACE(set, i)), lights[i].color,
+                 sees_directional(set, i), shadow_directional_light(TINT_VIEW(set), lights[i]),
+                 PARALLEL_LIGHT)
 #endif
     }
 #endif

@@ -72,6 +72,18 @@ SHARED_FN FV3 add_scaled(FV3 sum, FV weight, float4 color) {
                fma(weight, fv(color.z), sum.z));
 }
 
+// Adds the light of a colour, from the weights of its terms.
+SHARED_FN LightSum add_colored(LightSum sum, LightSum weights, float4 color) {
+#define ADD_COLORED_TERM(has, term)                                   \
+    if (has) {                                                        \
+        sum.term = fv3(fma(weights.term.x, fv(color.x), sum.term.x),  \
+                       fma(weights.term.y, fv(color.y), sum.term.y),  \
+                       fma(weights.term.z, fv(color.z), sum.term.z)); \
+    }
+    LIGHT_TERMS(ADD_COLORED_TERM)
+    return sum;
+}
+
 // A sum over lights in progress. Lights come in ascending order of their index; a finished block
 // joins the total.
 SHARED_PLAIN_STRUCT(RunningSum) {
