@@ -28,6 +28,23 @@ def test_arrays_hold_the_bits_of_the_files(tmp_path):
     assert (frame.display[..., 3] == 255).all()
 
 
+def test_light_groups_add_up_to_the_picture(tmp_path):
+    options = {**SMALL, "lights": 60}
+    frame = kilolux.render("lanterns", light_groups="globes=*globe,swarm=from:generated", **options)
+    assert list(frame.lights) == ["globes", "swarm", "rest"]
+    assert all(light.shape == (48, 64, 3) and light.max() > 0 for light in frame.lights.values())
+    np.testing.assert_allclose(sum(frame.lights.values()), frame.radiance, rtol=2e-6, atol=1e-7)
+    assert run("render", "grid", *SMALL_WORDS, "--lights", "60", "--light-groups", "a=from:generated", "-o",
+               tmp_path / "a.exr").returncode == 0
+    names, exr = read_image(tmp_path / "a.exr")
+    of_swarm = kilolux.render("grid", light_groups="a=from:generated", **options).lights["a"]
+    np.testing.assert_array_equal(of_swarm, exr[..., [names.index(f"light.a.{c}") for c in "RGB"]])
+    refused = run("render", "grid", *SMALL_WORDS, "--light-groups", "a=kind:point", "-o", tmp_path / "a.png")
+    assert refused.returncode == 2 and "--light-groups: " in refused.stderr and "cannot hold layers" in refused.stderr
+    with pytest.raises(kilolux.Error, match="no light is in 'a' \\(lamp\\)"):
+        kilolux.render("grid", light_groups="a=lamp", **SMALL)
+
+
 def test_arrays_are_views_that_outlive_the_frame():
     frame = kilolux.render("grid", **SMALL)
     radiance, display = frame.radiance, frame.display
