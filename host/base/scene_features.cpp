@@ -32,6 +32,7 @@ constexpr SceneFeature kTable[] = {
     {"alpha-blend", &F::alpha_blend},
     {"wide-light-index", &F::wide_light_index, nullptr, true},
     {"shadows", &F::shadows},
+    {"", &F::illuminance, "ILLUMINANCE"},
 };
 
 // The shortest text that is read back as the same float.

@@ -37,6 +37,7 @@ struct SceneFeatures {
     bool wide_light_index = false;    // more than 65536 lights
     bool shadows = false;             // asked for, and something casts them
     bool light_profiles = false;      // photometric webs: IES files
+    bool illuminance = false;         // in place of radiance: ILLUMINANCE of evaluate.h
     int light_groups = 0;             // whose light is stored apart: LIGHT_GROUPS of radiance.h
     float random_ranges = 0.0f;       // RANDOM_RANGES of evaluate.h; 0: none is random
     float light_d_min = LIGHT_D_MIN;  // [m], smaller in small scenes: see light_d_min()

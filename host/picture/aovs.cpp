@@ -84,6 +84,13 @@ void fill_error_bound(const DecodedSurfaces& s, const Camera&, Layer& layer) {
     });
 }
 
+void fill_illuminance(const DecodedSurfaces& s, const Camera&, Layer& layer) {
+    assert(!s.illuminance.empty());
+    fill(layer, layer.values, s.view, [&](std::size_t pixel, float* out) {
+        *out = s.shows_surface(pixel) ? static_cast<float>(illuminance_at(s, pixel)) : 0.0f;
+    });
+}
+
 void fill_layer_count(const DecodedSurfaces& s, const Camera&, Layer& layer) {
     assert(!s.layers.empty());
     fill(layer, layer.ids, s.view,
@@ -139,6 +146,10 @@ const std::vector<AovKind>& aov_kinds() {
          {"visibility"},
          "share of the lights in reach that are seen",
          fill_visibility},
+        {"illuminance",
+         {"illuminance"},
+         "of lights, in lux: intensity x falloff x cosine, with exact shadows where asked for",
+         fill_illuminance},
         {"error-standard",
          {"error.standard"},
          "of the luminance: of one sample (--shadows sampled, --tails stochastic), or of the mean "

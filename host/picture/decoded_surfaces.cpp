@@ -2,6 +2,15 @@
 #include "host/picture/decoded_surfaces.h"
 
 namespace kilolux {
+double luminance_of(const glm::dvec3& color) {
+    return glm::dot(color, glm::dvec3(0.2126, 0.7152, 0.0722));
+}
+
+double illuminance_at(const DecodedSurfaces& s, std::size_t i) {
+    const std::size_t plane = std::size_t{s.view.stride} * s.view.height;
+    return luminance_of({s.illuminance[i], s.illuminance[plane + i], s.illuminance[2 * plane + i]});
+}
+
 double hidden_share(const DecodedSurfaces& s, std::size_t i) {
     if (s.facing[i] == 0) return 0.0;
     return 1.0 - static_cast<double>(s.seen[i]) / static_cast<double>(s.facing[i]);

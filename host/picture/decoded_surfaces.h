@@ -37,6 +37,8 @@ struct DecodedSurfaces {
     // [3][height][stride]: a bound of the radiance that ranges take from lights without one of
     // their own; empty if not asked for.
     std::vector<float> bound;
+    // [3][height][stride]: illuminance [lx]; empty if not asked for.
+    std::vector<float> illuminance;
     // With groups of lights, the planes of a Radiance: the light of the picture's pixels, and the
     // part of it from each group.
     std::vector<float> light;
@@ -54,6 +56,12 @@ struct DecodedSurfaces {
     }
     bool shows_surface(std::size_t pixel) const { return at(SURFACE_DEPTH, pixel) != 0.0f; }
 };
+
+/// The luminance of a colour of linear Rec. 709, as a share of white's.
+double luminance_of(const glm::dvec3& color);
+
+/// Illuminance at pixel `i` of the planes [lx].
+double illuminance_at(const DecodedSurfaces& surfaces, std::size_t i);
 
 /// The surfaces and lights of a picture that was shaded, on the host.
 struct LitSurfaces {

@@ -73,7 +73,7 @@ void place_surfaces(DecodedSurfaces& whole, DecodedSurfaces&& band, int height) 
     }
     const auto rows = static_cast<std::size_t>(height);
     using S = DecodedSurfaces;
-    for (const auto values : {&S::planes, &S::variance, &S::bound}) {
+    for (const auto values : {&S::planes, &S::variance, &S::bound, &S::illuminance}) {
         place_planes(whole.*values, band.*values, band.view, rows);
     }
     for (const auto counts :

@@ -25,8 +25,15 @@ enum class ViewKind {
     difference,
     false_positives,
     shadows,
-    layers
+    layers,
+    luminance,
+    illuminance
 };
+
+/// Whether a view is made from the picture's radiance.
+constexpr bool shows_radiance(ViewKind view) {
+    return view == ViewKind::difference || view == ViewKind::luminance;
+}
 
 /// Of which surfaces AOVs and views tell: the opaque ones, or the nearest, which may blend.
 enum class SurfaceLayer { opaque, nearest };

@@ -40,7 +40,32 @@ double value_at(const HeatScale& scale, double t) {
     return scale.low + t * (scale.high - scale.low);
 }
 
+// Where a step begins: 1, 2, 5 times a power of ten.
+double step_start(int step) {
+    constexpr std::array kStarts = {1.0, 2.0, 5.0};
+    const int decade = step >= 0 ? step / 3 : -((2 - step) / 3);
+    return kStarts[static_cast<std::size_t>(step - 3 * decade)] * std::pow(10.0, decade);
+}
+
+// The colour of the bar at a place from 0 to 1.
+DisplayColor bar_color(const HeatScale& scale, double t) {
+    return heat_color(scale.steps ? position_on(scale, value_at(scale, t)) : t);
+}
+
 }  // namespace
+
+int round_step(double value) {
+    int step = 3 * static_cast<int>(std::floor(std::log10(value)));
+    while (step_start(step) > value) --step;
+    while (step_start(step + 1) <= value) ++step;
+    return step;
+}
+
+HeatScale scale_in_steps(double most, std::string_view unit) {
+    constexpr int kSteps = 12;  // four powers of ten
+    const int last = most > 0.0 && std::isfinite(most) ? round_step(most) : 0;
+    return {step_start(last + 1 - kSteps), step_start(last + 1), true, unit, true};
+}
 
 void Canvas::set(int x, int y, const DisplayColor& color) {
     if (x < 0 || y < 0 || x >= width || y >= height) return;
@@ -81,6 +106,12 @@ DisplayColor id_color(std::uint32_t id) {
 }
 
 double position_on(const HeatScale& scale, double value) {
+    if (scale.steps) {
+        if (!(value >= scale.low)) return 0.0;
+        const int first = round_step(scale.low), count = round_step(scale.high) - first;
+        const int step = std::min(round_step(std::min(value, scale.high)) - first, count - 1);
+        return (step + 0.5) / count;
+    }
     if (scale.logarithmic) {
         return std::log(std::max(value, scale.low) / scale.low) / std::log(scale.high / scale.low);
     }
@@ -120,7 +151,7 @@ void draw_legend(Canvas& canvas, const HeatScale& scale) {
     const int top = canvas.height - height;
     fill(canvas, {0, top, bar + 5 * margin + width_of(unit), canvas.height}, kPaper);
     for (int x = 0; x < bar; ++x) {
-        const DisplayColor color = heat_color((x + 0.5) / bar);
+        const DisplayColor color = bar_color(scale, (x + 0.5) / bar);
         fill(canvas, {margin + x, top + margin, margin + x + 1, top + margin + 8 * zoom}, color);
     }
     // Under the bar: its ends' numbers, and the middle's where it fits between them.

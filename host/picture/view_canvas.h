@@ -39,9 +39,17 @@ struct HeatScale {
     double high = 1.0;         // > low
     bool logarithmic = false;  // low > 0
     std::string_view unit;     // beside the bar
+    bool steps = false;        // logarithmic, in even colours between 1, 2, 5, 10, 20 and so on
 };
 
+/// From 0 to 1; of a scale in steps the middle of the value's step.
 double position_on(const HeatScale& scale, double value);
+
+/// The number of the step from 1, 2 or 5 times a power of ten that a value > 0 is in.
+int round_step(double value);
+
+/// Four powers of ten in steps, up to the end of the step that `most` is in.
+HeatScale scale_in_steps(double most, std::string_view unit);
 
 /// Bar with numbers in the lower left corner; pictures under 128 x 48 pixels get none.
 void draw_legend(Canvas& canvas, const HeatScale& scale);

@@ -63,6 +63,26 @@ Canvas heat_map(const ViewInput& input, const HeatScale& scale, const Magnitude&
     return canvas;
 }
 
+// Even colours in steps of 1, 2, 5 and 10, with lines between them. Values below four powers of ten
+// under the largest are black.
+Canvas step_map(const ViewInput& input, std::string_view unit, const Magnitude& magnitude) {
+    constexpr DisplayColor kLine = {128, 128, 128};
+    const HeatScale scale = scale_in_steps(largest(input, magnitude), unit);
+    const View& view = input.pixels.view;
+    const auto place = [&](uint x, uint y) {
+        const Pixel p{x, y, std::size_t{y} * view.stride + x};
+        return position_on(scale, input.pixels.shows_surface(p.index) ? magnitude(p) : 0.0);
+    };
+    Canvas canvas = painted(input, [&](const Pixel& p) {
+        const double t = place(p.x, p.y);
+        const bool is_edge = (p.x + 1 < view.width && place(p.x + 1, p.y) != t) ||
+                             (p.y + 1 < view.height && place(p.x, p.y + 1) != t);
+        return is_edge ? kLine : heat_color(t);
+    });
+    draw_legend(canvas, scale);
+    return canvas;
+}
+
 // From 0 to the largest count, at least 1.
 Canvas count_map(const ViewInput& input, std::string_view unit, const Magnitude& count) {
     return heat_map(input, {0.0, std::max(largest(input, count), 1.0), false, unit}, count);
@@ -209,6 +229,18 @@ Canvas difference(const ViewInput& input) {
     return heat_map(input, scale, magnitude);
 }
 
+Canvas luminance(const ViewInput& input) {
+    return step_map(input, "CD/M2", [&](const Pixel& p) {
+        const std::size_t i = 3 * (std::size_t{p.y} * input.pixels.view.width + p.x);
+        return luminance_of({input.radiance[i], input.radiance[i + 1], input.radiance[i + 2]});
+    });
+}
+
+Canvas illuminance(const ViewInput& input) {
+    return step_map(input, "LX",
+                    [&](const Pixel& p) { return illuminance_at(input.pixels, p.index); });
+}
+
 struct ViewRow {
     ViewKind kind;
     std::string_view name;
@@ -234,7 +266,10 @@ constexpr ViewRow kViews[] = {
      "heat map of lights evaluated in vain (deferred only)"},
     {ViewKind::shadows, "shadows", shadows,
      "heat map of the share of lights hidden (deferred only)"},
-    {ViewKind::layers, "layers", layers, "heat map of surfaces that blend over a pixel"}};
+    {ViewKind::layers, "layers", layers, "heat map of surfaces that blend over a pixel"},
+    {ViewKind::luminance, "luminance", luminance, "luminance in false colours, in cd/m2"},
+    {ViewKind::illuminance, "illuminance", illuminance,
+     "illuminance by lights in false colours, in lux"}};
 
 // A text of each row.
 std::vector<std::string> texts(std::string_view ViewRow::*text) {

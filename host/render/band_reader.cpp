@@ -117,6 +117,10 @@ DecodedSurfaces BandReader::pixels(const LastSample& last) {
                                  SURFACE_PLANES * plane_size(band));
     count_evaluated(last, out);
     if (context_.settings.want.layers()) add_layers(last, out);
+    const FrameRequest& want = context_.settings.want;
+    if (want.has_aov("illuminance") || want.view == ViewKind::illuminance) {
+        out.illuminance = illuminance(last);
+    }
     if (band.light.groups > 0) {
         out.light = download(context_.gpu, band.light.planes, band.light.floats());
     }
@@ -254,6 +258,26 @@ std::vector<float> BandReader::bound(const LastSample& last) {
     }
     return download(context_.gpu,
                     tail_errors().bound(lit, band.lights.lights, band.lists.boxes, untimed));
+}
+
+std::vector<float> BandReader::illuminance(const LastSample& last) {
+    const LitBand& band = last.band;
+    const KernelFeatures features = illuminance_features(context_.plan.kernels);
+    const auto make = [&](auto& shade) -> auto& {
+        if (!shade) {
+            shade.emplace(context_.gpu, context_.tuning, features, context_.surface_features());
+        }
+        return *shade;
+    };
+    StageTimer untimed;
+    const Radiance light =
+        last.stages.lists() != nullptr
+            ? make(illuminance_)
+                  .enqueue(band.lists.at(band.surfaces), untimed,
+                           {band.visible.words, band.visible.samples, band.shadows})
+            : make(illuminance_of_all_)
+                  .enqueue(band.surfaces, last.stages.all_lights(), untimed, band.shadows);
+    return download(context_.gpu, light.planes, light.floats());
 }
 
 LitSurfaces BandReader::lit_surfaces(const LastSample& last) {

@@ -60,6 +60,7 @@ class BandReader {
                                   uint y);
     DecodeGBuffer& decoder();
     DecodeGBuffer& layer_decoder();
+    std::vector<float> illuminance(const LastSample& last);
     TailErrors& tail_errors();
 
     RenderContext& context_;
@@ -68,6 +69,8 @@ class BandReader {
     std::optional<CountSeen> count_seen_;
     std::optional<CastShadows> counting_;
     std::optional<TailErrors> tail_errors_;
+    std::optional<Shade> illuminance_;
+    std::optional<ShadeAll> illuminance_of_all_;
     std::optional<OverdrawPass> overdraw_;
 };
 

@@ -40,7 +40,7 @@ void PictureOutput::resize(Frame& frame, Band rows, bool shown_only, bool by_row
     };
     if (want.display && !shown_only) resize_spare(&Frame::display, frame, 4 * pixels);
     const bool whole = needs_whole_picture(settings);
-    if ((want.radiance && !shown_only) || want.view == ViewKind::difference || (by_rows && whole)) {
+    if ((want.radiance && !shown_only) || shows_radiance(want.view) || (by_rows && whole)) {
         resize_spare(&Frame::radiance, frame, 3 * pixels);
     }
     if (want.shown_light && whole) resize_spare(&Frame::shown_light, frame, 3 * pixels);

@@ -36,10 +36,13 @@ constexpr bool resolves_ids(Geometry geometry) { return geometry != Geometry::pl
 /// pixel's list; or, in the mean, the same from a few rays a pixel (kernels/shadows/shadow_pick.h).
 enum class Shadows { off, exact, sampled };
 
-enum class Shading { automatic, lambert, blinn_phong, pbr };
+/// `illuminance` shows what light surfaces receive, not what they reflect.
+enum class Shading { automatic, lambert, blinn_phong, pbr, illuminance };
 
 /// The SHADING_* number of a setting that is not automatic, and back.
-constexpr int model_of(Shading shading) { return static_cast<int>(shading) - 1; }
+constexpr int model_of(Shading shading) {
+    return shading == Shading::illuminance ? SHADING_LAMBERT : static_cast<int>(shading) - 1;
+}
 constexpr Shading shading_of_model(int model) { return static_cast<Shading>(model + 1); }
 static_assert(model_of(Shading::lambert) == SHADING_LAMBERT &&
               model_of(Shading::blinn_phong) == SHADING_BLINN_PHONG &&

@@ -13,7 +13,8 @@
 // pi times the radiance that such a light causes on a white surface at the least of them;
 // HAS_LIGHT_EXTRAS, where lights may have photometric webs or a size: then evaluate() takes their
 // rows and the light's index. The macro EVALUATE takes them in any case, and drops them where there
-// are none.
+// are none; ILLUMINANCE, with SHADING_LAMBERT, where the illuminance of surfaces takes the place of
+// their radiance: the sum over lights of intensity * falloff * n.l [lx], and nothing else.
 #ifndef KILOLUX_SHARED_EVALUATE_H
 #define KILOLUX_SHARED_EVALUATE_H
 #include "kernels/shared/light.h"
@@ -29,6 +30,9 @@
 #endif
 #ifndef HAS_LIGHT_PROFILES
 #define HAS_LIGHT_PROFILES 0
+#endif
+#ifndef ILLUMINANCE
+#define ILLUMINANCE 0
 #endif
 #define HAS_LIGHT_EXTRAS (HAS_LIGHT_PROFILES != 0 || HAS_AREA_LIGHTS != 0)
 #if HAS_AREA_LIGHTS
@@ -180,6 +184,9 @@ SHARED_FN LightSum evaluate_directional(LightSum sum, ShadingPoint p, Directiona
 
 // Radiance that the surface reflects, from the sums over its lights.
 SHARED_FN FV3 reflected_radiance(Surface s, ShadingPoint p, LightSum sum) {
+#if ILLUMINANCE
+    return sum.diffuse;
+#else
     FV3 diffuse = diffuse_albedo(s, fv(INV_PI));
 #if SHADING == SHADING_LAMBERT
     FV3 out_radiance =
@@ -204,6 +211,7 @@ SHARED_FN FV3 reflected_radiance(Surface s, ShadingPoint p, LightSum sum) {
             lane_select(lit, out_radiance.z, fv(0.0f)));
 #endif
     return out_radiance;
+#endif
 }
 
 // Adds the largest sums that the light can cause.
@@ -232,11 +240,15 @@ SHARED_FN FV3 radiance_bound(Surface s, ShadingPoint p, LightSum most) {
 // Radiance of the surface, from the sums over its lights.
 SHARED_FN FV3 finish_shading(Surface s, ShadingPoint p, LightSum sum, float ambient) {
     FV3 lit = reflected_radiance(s, p, sum);
+#if ILLUMINANCE
+    return lit;
+#else
     FV below = share_below_coat(p), a = s.occlusion * fv(ambient) * below;
     FV3 emissive = scale3(s.emissive, below);
     FV3 albedo = with_even_sheen(s, p, even_albedo(s), fv3(fv(1.0f), fv(1.0f), fv(1.0f)));
     return fv3(fma(a, albedo.x, lit.x) + emissive.x, fma(a, albedo.y, lit.y) + emissive.y,
                fma(a, albedo.z, lit.z) + emissive.z);
+#endif
 }
 
 #if defined(__cplusplus)

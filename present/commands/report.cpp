@@ -180,6 +180,8 @@ void take_devices(ReportOptions& options) {
 }
 
 void run_report(ReportOptions& options, const CLI::App& command) {
+    refuse_if(options.shared.settings.shading == Shading::illuminance,
+              "--shading: report compares radiance; kilolux photometry compares illuminance");
     take_devices(options);
     apply_quick(command, options);
     apply_axes(command, options);

@@ -79,6 +79,44 @@ TEST(Views, LightsAreTheCountsOfTheAov) {
     }
 }
 
+TEST(Views, StepsAreRound) {
+    const std::pair<double, int> steps[] = {{0.099, -4}, {0.1, -3}, {0.2, -2}, {0.5, -1}, {1.0, 0},
+                                            {1.99, 0},   {2.0, 1},  {4.99, 1}, {5.0, 2},  {10.0, 3},
+                                            {1e6, 18},   {1e-6, -18}};
+    for (const auto& [value, step] : steps) EXPECT_EQ(round_step(value), step) << value;
+    const HeatScale scale = scale_in_steps(730.0, "LX");
+    EXPECT_DOUBLE_EQ(scale.high, 1000.0);
+    EXPECT_DOUBLE_EQ(scale.low, 0.1);
+    EXPECT_DOUBLE_EQ(position_on(scale, 730.0), 11.5 / 12.0);
+    EXPECT_EQ(position_on(scale, 0.0), 0.0);
+    EXPECT_EQ(position_on(scale, 20.0), position_on(scale, 49.0));
+    EXPECT_LT(position_on(scale, 19.9), position_on(scale, 20.0));
+}
+
+TEST(Views, IlluminanceIsTheAovInSteps) {
+    const Frame frame = frame_of("illuminance", RendererKind::deferred, {"illuminance"});
+    const std::vector<float>& lux = frame.aovs[0].values;
+    const HeatScale scale = scale_in_steps(*std::ranges::max_element(lux), "LX");
+    int lines = 0;
+    std::set<DisplayColor> colors;
+    for_upper_half([&](int x, int y, std::size_t i) {
+        const DisplayColor color = color_at(frame.display, x, y);
+        if (lux[i] == 0.0f) return;
+        const double here = position_on(scale, lux[i]);
+        const double right = position_on(scale, lux[i + (x + 1 < kViewWidth ? 1 : 0)]);
+        const double below = position_on(scale, lux[i + kViewWidth]);
+        if (here == right && here == below) {
+            ASSERT_EQ(color, heat_color(here)) << x << ", " << y;
+            colors.insert(color);
+        } else {
+            ASSERT_EQ(color, (DisplayColor{128, 128, 128})) << x << ", " << y;
+            ++lines;
+        }
+    });
+    EXPECT_GT(lines, 20);
+    EXPECT_GT(colors.size(), 3u);
+}
+
 TEST(Views, NormalsAndAlbedoAreTheAovs) {
     const Frame normal = frame_of("normal", RendererKind::deferred, {"normal", "depth"});
     const Frame albedo = frame_of("albedo", RendererKind::deferred, {"albedo", "depth"});

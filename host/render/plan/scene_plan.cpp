@@ -146,6 +146,7 @@ ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings,
     features.point_lights = light_count > 0;
     features.area_lights = has_area_lights(scene.lights, settings.lights);
     if (features.area_lights) check_area_lights(shading, settings.shadows);
+    features.illuminance = settings.shading == Shading::illuminance;
     features.light_groups = static_cast<int>(settings.light_groups.size());
     features.wide_light_index = light_count > 65536;
     features.shadows = settings.shadows != Shadows::off && triangle_count(scene) > 0;
@@ -193,12 +194,23 @@ ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings,
     plan.gbuffer.emissive_scale = emission > 0.0f ? emission : 1.0f;
     plan.gbuffer_bytes_per_pixel = bytes_per_pixel(plan.gbuffer);
     features.transmission = plan.transmission;
-    plan.features.emplace_back(kShadingNames[shading]);
+    plan.features.emplace_back(features.illuminance ? "illuminance" : kShadingNames[shading]);
     for (const SceneFeature& feature : scene_feature_table()) {
         if (feature.name.empty()) continue;
         (features.*feature.member ? plan.features : plan.left_out).emplace_back(feature.name);
     }
     return plan;
+}
+
+KernelFeatures illuminance_features(KernelFeatures kernels) {
+    for (const MaterialFeature& feature : kMaterialFeatures) {
+        kernels.*feature.member &= feature.model <= SHADING_LAMBERT;
+    }
+    kernels.unlit = false;
+    kernels.shading = SHADING_LAMBERT;
+    kernels.illuminance = true;
+    kernels.light_groups = 0;
+    return kernels;
 }
 
 int added_bytes_per_pixel(const ScenePlan& plan, std::string_view feature) {

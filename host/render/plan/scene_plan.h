@@ -36,6 +36,9 @@ const std::vector<std::string>& forceable_features();
 ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings,
                           std::uint64_t light_count);
 
+/// The kernels that find the illuminance of the surfaces of a plan.
+KernelFeatures illuminance_features(KernelFeatures kernels);
+
 /// Bytes a pixel that the G-buffer would grow by with a feature that the plan leaves out.
 int added_bytes_per_pixel(const ScenePlan& plan, std::string_view feature);
 

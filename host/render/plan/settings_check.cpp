@@ -85,6 +85,23 @@ void check_light_groups(const RenderSettings& settings) {
     }
 }
 
+void check_illuminance(const RenderSettings& settings) {
+    if (settings.shading == Shading::illuminance && settings.reflections) {
+        throw UsageError("shading illuminance: it is that of lights; leave out --reflections");
+    }
+    const bool wants_layer =
+        settings.want.has_aov("illuminance") || settings.want.view == ViewKind::illuminance;
+    if (!wants_layer) return;
+    if (is_forward(settings.renderer)) {
+        throw UsageError("illuminance: of the forward renderers only --shading illuminance");
+    }
+    if (settings.shadows == Shadows::sampled) {
+        throw UsageError(
+            "illuminance: a layer has no sampled shadows; take --shadows exact, or --shading "
+            "illuminance");
+    }
+}
+
 }  // namespace
 
 void check_settings(const RenderSettings& settings) {
@@ -93,6 +110,7 @@ void check_settings(const RenderSettings& settings) {
     check_tails(settings);
     check_view(settings);
     check_light_groups(settings);
+    check_illuminance(settings);
 }
 
 std::string area_lights_problem(int shading, Shadows shadows) {
