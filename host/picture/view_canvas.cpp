@@ -141,6 +141,11 @@ int draw_text(Canvas& canvas, int x, int y, int size, const std::string& text) {
     return mask.width;
 }
 
+bool are_neighbour_steps(const HeatScale& scale, double a, double b) {
+    const int count = round_step(scale.high) - round_step(scale.low);
+    return std::lround(count * std::abs(a - b)) == 1;
+}
+
 void draw_legend(Canvas& canvas, const HeatScale& scale) {
     if (canvas.width < 128 || canvas.height < 48) return;
     const int zoom = std::max(1, canvas.height / 360);

@@ -48,6 +48,9 @@ double position_on(const HeatScale& scale, double value);
 /// The number of the step from 1, 2 or 5 times a power of ten that a value > 0 is in.
 int round_step(double value);
 
+/// Whether position_on() of a scale in steps was in one step and in the one beside it.
+bool are_neighbour_steps(const HeatScale& scale, double a, double b);
+
 /// Four powers of ten in steps, up to the end of the step that `most` is in.
 HeatScale scale_in_steps(double most, std::string_view unit);
 

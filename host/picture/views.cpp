@@ -63,8 +63,8 @@ Canvas heat_map(const ViewInput& input, const HeatScale& scale, const Magnitude&
     return canvas;
 }
 
-// Even colours in steps of 1, 2, 5 and 10, with lines between them. Values below four powers of ten
-// under the largest are black.
+// Even colours in steps of 1, 2, 5 and 10, with lines between neighbouring steps. Values below four
+// powers of ten under the largest are black.
 Canvas step_map(const ViewInput& input, std::string_view unit, const Magnitude& magnitude) {
     constexpr DisplayColor kLine = {128, 128, 128};
     const HeatScale scale = scale_in_steps(largest(input, magnitude), unit);
@@ -75,9 +75,10 @@ Canvas step_map(const ViewInput& input, std::string_view unit, const Magnitude& 
     };
     Canvas canvas = painted(input, [&](const Pixel& p) {
         const double t = place(p.x, p.y);
-        const bool is_edge = (p.x + 1 < view.width && place(p.x + 1, p.y) != t) ||
-                             (p.y + 1 < view.height && place(p.x, p.y + 1) != t);
-        return is_edge ? kLine : heat_color(t);
+        const bool is_line =
+            (p.x + 1 < view.width && are_neighbour_steps(scale, t, place(p.x + 1, p.y))) ||
+            (p.y + 1 < view.height && are_neighbour_steps(scale, t, place(p.x, p.y + 1)));
+        return is_line ? kLine : heat_color(t);
     });
     draw_legend(canvas, scale);
     return canvas;

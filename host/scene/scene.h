@@ -247,7 +247,7 @@ struct Scene {
     std::vector<SceneLight> lights;
     std::vector<PhotometricWeb> webs;          // of the lights with IES profiles
     std::vector<SceneProfile> aimed_profiles;  // one for each of these lights
-    std::vector<LightNode> light_nodes;        // by the file's nodes; those without lights are empty
+    std::vector<LightNode> light_nodes;  // by the file's nodes; those without lights are empty
     std::vector<SceneCamera> cameras;
     std::vector<Clip> clips;            // of the file; only those that play move the scene
     std::vector<std::string> variants;  // of the file's materials (KHR_materials_variants)

@@ -20,8 +20,8 @@
         global const float *restrict srgb
 
 // PreparedLights, view space. lights, bounds (p_view, 1/range^2), extents, aimed_profiles,
-// shapes: [light_count + node_count]; the nodes of the light tree come last. light_groups: the same,
-// then [directional_count].
+// shapes: [light_count + node_count]; the nodes of the light tree come last. light_groups: the
+// same, then [directional_count].
 #define LIGHT_ARGS(access)                                                                     \
     global access StoredLight *restrict lights, global access float4 *restrict bounds,         \
         global access LightExtent *restrict extents, uint light_count,                         \

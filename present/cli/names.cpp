@@ -47,12 +47,12 @@ const Choices& choices_of(BenchMotion) {
 }
 
 const Choices& choices_of(Shading) {
-    static const Choices choices = {{"auto", "pbr; lambert where nothing is lit"},
-                                    {"lambert", "matt: albedo / pi"},
-                                    {"blinn-phong", "with normalised highlights"},
-                                    {"pbr", "glTF's metallic-roughness model"},
-                                    {"illuminance",
-                                     "what surfaces receive of lights [lx], not what they reflect"}};
+    static const Choices choices = {
+        {"auto", "pbr; lambert where nothing is lit"},
+        {"lambert", "matt: albedo / pi"},
+        {"blinn-phong", "with normalised highlights"},
+        {"pbr", "glTF's metallic-roughness model"},
+        {"illuminance", "what surfaces receive of lights [lx], not what they reflect"}};
     return choices;
 }
 

@@ -29,8 +29,8 @@ void check_reflections(const SharedOptions& options) {
 // band_rows, kernels.chunks, kernels.group_height), and by the window and the commands
 // (grid.fine_per_octave, memory_shares and the rest of want).
 void count_members(SharedOptions& options) {
-    [[maybe_unused]] auto& [scene, load, settings, rig, emissive_lights, light_groups, environment, background,
-                            shown_background, reflections, maps, shows_environment,
+    [[maybe_unused]] auto& [scene, load, settings, rig, emissive_lights, light_groups, environment,
+                            background, shown_background, reflections, maps, shows_environment,
                             compares_renderers, environment_lights, lights_given, ambient_given,
                             tone_curve_given, shadow_rays_given, takes_automatic_exposure,
                             automatic_exposure, takes_automatic_samples, camera, time, show_error,
@@ -40,9 +40,9 @@ void count_members(SharedOptions& options) {
     [[maybe_unused]] auto& [renderer, width, height, lights, tails, range_budget, seed, tree_share,
                             gbuffer, geometry, anisotropy, no_reuse, shading, shadows,
                             opaque_shadows, shadow_rays, ambient, backdrop, mirrored, bloom,
-                            exposure, tone_curve, samples, auto_samples, want, groups, grid, kernels,
-                            force_features, max_memory_bytes, memory_shares, band_rows, device,
-                            opened] = settings;
+                            exposure, tone_curve, samples, auto_samples, want, groups, grid,
+                            kernels, force_features, max_memory_bytes, memory_shares, band_rows,
+                            device, opened] = settings;
     [[maybe_unused]] auto& [count, light_seed, radius, intensity, size, box] = lights;
     [[maybe_unused]] auto& [on, error, most] = auto_samples;
     [[maybe_unused]] auto& [display, radiance, shown_light, counts, shadow_counts, view, aovs,

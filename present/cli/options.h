@@ -31,8 +31,8 @@ struct SharedOptions {
     Rig rig = Rig::automatic;
     EmissiveLights emissive_lights = EmissiveLights::automatic;
     std::vector<LightGroup> light_groups;  // asked for; settings has those of the scene
-    std::string environment;                              // file or built-in name; empty: none
-    BackgroundChoice background;                          // behind the scene
+    std::string environment;               // file or built-in name; empty: none
+    BackgroundChoice background;           // behind the scene
     std::shared_ptr<const Environment> shown_background;  // set by light_scene()
     bool reflections = false;  // the environment lights by prefiltered maps, not by lights
     std::shared_ptr<const PrefilteredEnvironment> maps;  // set by light_scene()

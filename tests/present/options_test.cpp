@@ -158,8 +158,7 @@ TEST(Options, LightCameraAndDeviceOptionsArrive) {
     EXPECT_EQ(p.shared.emissive_lights, EmissiveLights::on);
     ASSERT_EQ(p.shared.light_groups.size(), 2u);
     EXPECT_EQ(p.shared.light_groups[0].name, "key");
-    EXPECT_EQ(p.shared.light_groups[0].patterns,
-              (std::vector<std::string>{"lamp*", "kind:spot"}));
+    EXPECT_EQ(p.shared.light_groups[0].patterns, (std::vector<std::string>{"lamp*", "kind:spot"}));
     EXPECT_EQ(text_of(p.shared.light_groups), "key=lamp*+kind:spot,fill=ies:*");
     EXPECT_EQ(l.box.min, glm::dvec3(-1, -2, -3));
     EXPECT_EQ(l.box.max, glm::dvec3(1, 2, 3));

@@ -35,7 +35,8 @@ TEST(Program, CommandLinesThatCannotBeObeyedExitWithTwo) {
     } cases[] = {
         {{}, "no command given"},
         {{"redner"},
-         "'redner' is no command; there are render, view, bench, report, certify, info, photometry, export, "
+         "'redner' is no command; there are render, view, bench, report, certify, info, "
+         "photometry, export, "
          "assemble, merge; did you "
          "mean 'render'?"},
         {{"--frobnicate"}, "unknown option --frobnicate"},

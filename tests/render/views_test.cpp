@@ -80,9 +80,9 @@ TEST(Views, LightsAreTheCountsOfTheAov) {
 }
 
 TEST(Views, StepsAreRound) {
-    const std::pair<double, int> steps[] = {{0.099, -4}, {0.1, -3}, {0.2, -2}, {0.5, -1}, {1.0, 0},
-                                            {1.99, 0},   {2.0, 1},  {4.99, 1}, {5.0, 2},  {10.0, 3},
-                                            {1e6, 18},   {1e-6, -18}};
+    const std::pair<double, int> steps[] = {{0.099, -4}, {0.1, -3}, {0.2, -2}, {0.5, -1},
+                                            {1.0, 0},    {1.99, 0}, {2.0, 1},  {4.99, 1},
+                                            {5.0, 2},    {10.0, 3}, {1e6, 18}, {1e-6, -18}};
     for (const auto& [value, step] : steps) EXPECT_EQ(round_step(value), step) << value;
     const HeatScale scale = scale_in_steps(730.0, "LX");
     EXPECT_DOUBLE_EQ(scale.high, 1000.0);
@@ -91,6 +91,8 @@ TEST(Views, StepsAreRound) {
     EXPECT_EQ(position_on(scale, 0.0), 0.0);
     EXPECT_EQ(position_on(scale, 20.0), position_on(scale, 49.0));
     EXPECT_LT(position_on(scale, 19.9), position_on(scale, 20.0));
+    EXPECT_TRUE(are_neighbour_steps(scale, position_on(scale, 19.9), position_on(scale, 20.0)));
+    EXPECT_FALSE(are_neighbour_steps(scale, position_on(scale, 9.9), position_on(scale, 20.0)));
 }
 
 TEST(Views, IlluminanceIsTheAovInSteps) {
@@ -105,7 +107,7 @@ TEST(Views, IlluminanceIsTheAovInSteps) {
         const double here = position_on(scale, lux[i]);
         const double right = position_on(scale, lux[i + (x + 1 < kViewWidth ? 1 : 0)]);
         const double below = position_on(scale, lux[i + kViewWidth]);
-        if (here == right && here == below) {
+        if (!are_neighbour_steps(scale, here, right) && !are_neighbour_steps(scale, here, below)) {
             ASSERT_EQ(color, heat_color(here)) << x << ", " << y;
             colors.insert(color);
         } else {

@@ -83,9 +83,8 @@ bool matches(const SceneLight& light, const Scene& scene, const std::string& pat
 
 bool is_in(const SceneLight& light, const Scene& scene, const LightGroup& group) {
     if (std::ranges::find(group.nodes, light.node) != group.nodes.end()) return true;
-    return std::ranges::any_of(group.patterns, [&](const std::string& pattern) {
-        return matches(light, scene, pattern);
-    });
+    return std::ranges::any_of(
+        group.patterns, [&](const std::string& pattern) { return matches(light, scene, pattern); });
 }
 
 bool is_name_letter(char c) {
@@ -119,7 +118,8 @@ LightGroup parse_group(const std::string& option, const std::string& text) {
 // A name for a group of one light, as check_name() asks.
 std::string name_of_light(const Scene& scene, int node, std::set<std::string>& taken) {
     std::string name = scene.light_nodes[static_cast<std::size_t>(node)].name;
-    std::ranges::replace_if(name, [](char c) { return !is_name_letter(c); }, '_');
+    std::ranges::replace_if(
+        name, [](char c) { return !is_name_letter(c); }, '_');
     if (name.empty()) name = fmt::format("node{}", node);
     if (name == kRestGroup || taken.contains(name)) name += fmt::format("_{}", node);
     taken.insert(name);
@@ -183,8 +183,8 @@ std::vector<LightGroup> light_groups_of(const Scene& scene, std::uint64_t genera
     std::vector<LightGroup> out = each ? group_of_each(scene) : asked;
     if (each && out.empty()) throw UsageError("light groups: the scene's file has no lights");
     if (out.size() > kMostLightGroups) {
-        throw UsageError(fmt::format("light groups: {} are more than {}", out.size(),
-                                     kMostLightGroups));
+        throw UsageError(
+            fmt::format("light groups: {} are more than {}", out.size(), kMostLightGroups));
     }
     std::vector<std::size_t> lights(out.size() + 1);
     for (const SceneLight& light : scene.lights) ++lights[group_of(light, scene, out)];

@@ -28,8 +28,8 @@ const char* const kGroups =
     "left=left,right=group:lamp*,sun=kind:directional,swarm=from:generated+kind:sphere";
 
 RenderSettings grouped(const Scene& scene, RenderSettings settings, const char* groups = kGroups) {
-    settings.light_groups = light_groups_of(scene, settings.lights.count,
-                                            parse_light_groups("--light-groups", groups));
+    settings.light_groups =
+        light_groups_of(scene, settings.lights.count, parse_light_groups("--light-groups", groups));
     return settings;
 }
 
@@ -42,7 +42,8 @@ Scene only(Scene scene, const std::function<bool(const SceneLight&)>& stays) {
 }
 
 const Layer& layer_of(const Frame& frame, const std::string& group) {
-    const auto found = std::ranges::find(frame.aovs, std::string(kLightLayers) + group, &Layer::name);
+    const auto found =
+        std::ranges::find(frame.aovs, std::string(kLightLayers) + group, &Layer::name);
     if (found == frame.aovs.end()) throw Error("no layer " + group);
     return *found;
 }
@@ -157,8 +158,7 @@ TEST(LightGroups, FollowAChangeOfGroups) {
     renderer.change(settings);
     const Frame second = renderer.render(camera, 0.0);
     EXPECT_NE(layer_of(first, "a").values, layer_of(second, "a").values);
-    EXPECT_EQ(layer_of(second, "a").values,
-              layer_of(render_once(scene, settings), "a").values);
+    EXPECT_EQ(layer_of(second, "a").values, layer_of(render_once(scene, settings), "a").values);
 }
 
 TEST(LightGroups, EachIsAGroupOfEachNode) {
