@@ -6,6 +6,9 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <vector>
+
 #include "host/measure/metrics/rgb_image.h"
 #include "host/measure/report/mean_picture.h"
 #include "host/scene/lights/light_shape.h"
@@ -129,21 +132,34 @@ ShadowScenario columns_by(int lights) {
 
 class RatioForm : public testing::TestWithParam<int> {};
 
-TEST_P(RatioForm, AgainstTheDifference) {
+// Both are the same for one light, all of whose rays are drawn. Of several the ratio's errors are
+// smaller, for rays that are drawn too often are among both H and D; but it is biased.
+TEST_P(RatioForm, ErrsLessButIsBiased) {
     const int lights = GetParam();
     const ShadowScenario scenario =
         lights == 1 ? board_below(panel(LightType::rectangle)) : columns_by(lights);
     for (const int rays : {4, 16}) {
-        const Forms found = forms_of(scenario, soft_settings(48, 27, rays), 256);
-        for (const auto& [name, form] :
-             {std::pair{"difference", found.plain}, std::pair{"ratio", found.ratio}}) {
+        SCOPED_TRACE(fmt::format("{} lights, {} rays", lights, rays));
+        const auto [plain, ratio] = forms_of(scenario, soft_settings(48, 27, rays), 256);
+        for (const auto& [name, form] : {std::pair{"difference", plain}, std::pair{"ratio", ratio}})
             fmt::print("{} lights, {} rays, {}: RMSE {:.4f}, bias {:.4f}, shift {:+.4f}\n", lights,
                        rays, name, form.rmse, form.bias, form.shift);
+        EXPECT_LT(plain.bias, 0.004);
+        if (lights == 1) {
+            EXPECT_NEAR(ratio.rmse, plain.rmse, 1e-4 * plain.rmse);
+            continue;
+        }
+        EXPECT_LT(ratio.rmse, 0.95 * plain.rmse);
+        EXPECT_GT(ratio.rmse, 0.7 * plain.rmse);
+        if (rays == 4) {
+            EXPECT_GT(ratio.bias, 0.02);
         }
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Lights, RatioForm, testing::Values(1, 4, 16, 64));
+INSTANTIATE_TEST_SUITE_P(Lights, RatioForm,
+                         testing::ValuesIn(runs_full() ? std::vector{1, 4, 16, 64}
+                                                       : std::vector{1, 16}));
 
 }  // namespace
 }  // namespace kilolux
