@@ -2,6 +2,7 @@
 #include "present/commands/bench/bench_context.h"
 
 #include <fmt/format.h>
+#include <filesystem>
 #include <fstream>
 
 #include "host/base/error.h"
@@ -70,8 +71,9 @@ std::string result_text(const fs::path& csv) {
 
 std::string command_line() {
     std::ifstream in("/proc/self/cmdline", std::ios::binary);
-    std::string out = "kilolux", word;
+    std::string word;
     std::getline(in, word, '\0');  // the program's path
+    std::string out = std::filesystem::path(word).filename().string();
     while (std::getline(in, word, '\0')) {
         out.append(" ").append(shell_word(word));
     }
