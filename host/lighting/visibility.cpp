@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/lighting/visibility.h"
 
-#include <algorithm>
-
-#include "kernels/shared/evaluate_modes.h"
+#include "kernels/shared/shadow.h"
 
 namespace kilolux {
 namespace {
@@ -13,14 +11,12 @@ KernelFeatures without_shadows(KernelFeatures features) {
     return features;
 }
 
-// AREA_LOBES of kernels/shadows/shadow_bits.h.
-uint lobes_of(const KernelFeatures& features) { return features.shading == SHADING_PBR ? 2 : 1; }
-
 }  // namespace
 
 Visibility::Visibility(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
                        const SurfaceFeatures& surfaces)
-    : area_lobes_(features.sampled_shadows && features.area_lights ? lobes_of(features) : 0),
+    : area_lobes_(features.sampled_shadows && features.area_lights ? AREA_LOBES_OF(features.shading)
+                                                                   : 0),
       cast_(gpu, tuning, features, surfaces) {
     if (!features.sampled_shadows) return;
     draw_.emplace(gpu, tuning, features);
@@ -50,8 +46,7 @@ SeenLights Visibility::enqueue(const ListedLights& lists, const GBuffer& gbuffer
     source_.reset();
     seen_ = {};  // arrays that grow must not be held twice
     const LitPixels lit = lists.at(gbuffer);
-    // A slot for each ray of a lobe, and one for its candidates.
-    const uint slots = std::max(area_lobes_ * (area_slots(shadows.rays) + 1), 1u);
+    const uint slots = slots_of_light(area_lobes_, shadows.rays);
     seen_.words = cast_.reserve(lists.lights, lists.clusters, timer, slots);
     if (draw_) {
         seen_.samples = {{}, shadows.rays, shadows.seed};

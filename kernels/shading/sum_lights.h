@@ -180,7 +180,7 @@ static inline bool is_area(LightSet set, uint light) {
 
 // Hidden rays of a lobe of a light with a size that picks `pairs`.
 static inline HiddenRays hidden_rays(LightSet set, uint entry, uint light, uint lobe, FV pairs) {
-    uint first = lobe * area_slots(set.pick.rays);
+    uint first = lobe * lobe_slots(set.pick.rays);
 #if SHADOWS == SHADOWS_BITS
     return count_hidden(set.shadows, place_of_entry(set, entry) + first, pairs);
 #else
@@ -221,10 +221,10 @@ static inline LightSum sampled_area(LightSet set, uint entry, uint light, LightS
 #if SHADOWS == SHADOWS_BITS
 // Whether any ray to the light is hidden; only then its sum is needed.
 static inline bool hides_any(LightSet set, uint entry) {
-    uint first = place_of_entry(set, entry), slots = area_slots(set.pick.rays);
+    uint first = place_of_entry(set, entry), slots = lobe_slots(set.pick.rays);
     uint bits = 0u;
     for (uint lobe = 0; lobe < AREA_LOBES; ++lobe) {
-        uint candidates = word_of_lanes(set.shadows, first + ray_slots(set.pick.rays) + lobe);
+        uint candidates = word_of_lanes(set.shadows, first + light_ray_slots(set.pick.rays) + lobe);
         if ((candidates & lane_ballot((MASK)(-1))) == 0u) continue;
         for (uint slot = lobe * slots; slot < (lobe + 1u) * slots; ++slot) {
             bits |= word_of_lanes(set.shadows, first + slot);

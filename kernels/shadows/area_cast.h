@@ -45,7 +45,7 @@ static inline void shade_targets(const FV3* v, uint child, ShadowScene scene, Sh
         uint row = points->rows[i];
         MASK lit = lit_of(points, row);
         ADD_COUNT(points, points, lane_count(lit));
-        at.at = load_edge_points(points, row);
+        at.at = load_ray_ends(points, row);
         lit &= ~hidden_by(v, child, scene, at, load_points(points, row), lit);
         lane_store(KX_CONCAT(as_, FV)(lit), points->lit + row * VW);
         points->rows[count] = (uchar)row;

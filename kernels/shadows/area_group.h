@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays of a cluster's pixels to a light with a size by a work-group: packed, from all of the
-// light's slots, an item a ray; then pairs of a ray and a triangle, an item a pair. First all pairs
-// ask whether the ray passes the triangle's box, which few do; then items share those.
+// A work-group casts a light's rays. First an item takes a ray and finds its target. Then an item
+// takes a pair of ray and triangle and tests the triangle's box. Few pairs pass; the items share
+// these for the full test.
 #ifndef KILOLUX_DEVICE_AREA_GROUP_H
 #define KILOLUX_DEVICE_AREA_GROUP_H
 #include "kernels/shadows/shadow_group.h"
 
 #if AREA_SHADOWS
-// What an item has yet to take of a light's words: the bits of one, and every GROUP-th from `word`.
+// An item's position in a light's words: the remaining bits of one word, and the next word (every
+// GROUP-th).
 typedef struct LeftBits {
     uint word, bits;
 } LeftBits;
@@ -64,7 +65,7 @@ static inline uint make_rays(ClusterCast cast, AreaPixels from, ShadowLight ligh
         load_area_pixels(&ray, 0u, from.g, pixels);
         ShadowLight target = light_at_slot(cast.from, light, word / cast.count);
         MASK lit = face_light(cast.scene.view, &ray, 0u, target, (MASK)(-1));
-        FV3 p = load_points(&ray, 0u), e = load_edge_points(&ray, 0u);
+        FV3 p = load_points(&ray, 0u), e = load_ray_ends(&ray, 0u);
         rays->origins[i] = (float4)(p.x, p.y, p.z, 0.0f);
         rays->targets[i] = (float4)(e.x, e.y, e.z, 0.0f);
         rays->lit[i] = lane_count(lit);

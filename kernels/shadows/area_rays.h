@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays from a cluster's pixels to a light with a size, from all slots of its lobes, packed: few
-// pixels pick a lobe, so that their rays fill a row where the pixels are scattered over many, and
-// one walk serves all of them.
+// Packs the rays of a cluster's pixels to one light, from all its slots. Few pixels pick a lobe, so
+// unpacked rows would be mostly empty. One walk serves all packed rays.
 #ifndef KILOLUX_DEVICE_AREA_RAYS_H
 #define KILOLUX_DEVICE_AREA_RAYS_H
 #include "kernels/shadows/cast_shadows.h"
@@ -45,14 +44,14 @@ static inline MASK begin_row(AreaRays* rays, uint row, ShadowScene scene, Shadow
                              float rays_of_pixel, LaneBox* origins, LaneBox* targets) {
     uint at = row * VW;
     UV slots = lane_load(rays->slots + at);
-    uint lobe = rays->slots[at] / area_slots(rays_of_pixel);
+    uint lobe = rays->slots[at] / lobe_slots(rays_of_pixel);
     light.area = at_slots(light.area, lobe, slots, rays_of_pixel);
     uint bits = 0u;
     for (uint i = 0; i < VW; ++i) bits |= rays->places[at + i] != NO_PLACE ? 1u << i : 0u;
     MASK wanted = lane_mask(((UV)(bits) >> lane_numbers & 1u) != (UV)(0u));
     MASK lit = face_light(scene.view, &rays->ends, row, light, wanted);
     *origins = grown_box(*origins, lit, load_points(&rays->ends, row));
-    *targets = grown_box(*targets, lit, load_edge_points(&rays->ends, row));
+    *targets = grown_box(*targets, lit, load_ray_ends(&rays->ends, row));
     return lit;
 }
 
@@ -94,7 +93,7 @@ static inline void cast_rays(ShadowScene scene, ShadowLight light, float rays_of
 static inline void cast_area_light(ShadowScene scene, ShadowLight light, CastLights from,
                                    SlotWords to, const ShadowPoints* points, AreaRays* rays) {
     rays->count = 0u;
-    for (uint slot = 0; slot < ray_slots(from.rays);) {
+    for (uint slot = 0; slot < light_ray_slots(from.rays);) {
         global const uint* words = to.words + slot * to.count;
         uint any = 0u;
         for (uint i = 0; i < to.count; ++i) {

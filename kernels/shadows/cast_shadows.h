@@ -55,7 +55,7 @@ static inline uint key_of_tile(View view, CastLights from, uint tile) {
 
 // Slots of the rays to the j-th light of a cluster, and all slots before them.
 static inline uint slots_of(CastLights from, uint j) {
-    return j < from.directional_count ? 1u : ray_slots(from.rays);
+    return j < from.directional_count ? 1u : light_ray_slots(from.rays);
 }
 static inline uint slots_before(CastLights from, uint j) {
     return j < from.directional_count
@@ -66,7 +66,7 @@ static inline uint slots_before(CastLights from, uint j) {
 // The first slot of the lobe after that of a slot: pixels use the first ones of a lobe.
 static inline uint next_lobe(CastLights from, uint slot) {
 #if AREA_SHADOWS
-    uint slots = area_slots(from.rays);
+    uint slots = lobe_slots(from.rays);
     return (slot / slots + 1u) * slots;
 #else
     return slot + 1u;
@@ -81,20 +81,21 @@ static inline ShadowLight light_at_slot(CastLights from, ShadowLight light, uint
     return light;
 }
 
-// Whether any bit of some words is set.
-static inline bool any_word(global const uint* words, uint count) {
+// The bits of the pixels that pick the j-th light, of one word. words: that of the first slot, of
+// `count` for each slot.
+static inline uint picked_bits(CastLights from, uint j, global const uint* words, uint count) {
     uint bits = 0u;
-    for (uint i = 0; i < count; ++i) bits |= words[i];
-    return bits != 0u;
+    for (uint slot = 0; slot < slots_of(from, j); slot = next_lobe(from, slot)) {
+        bits |= words[slot * count];
+    }
+    return bits;
 }
 
 // Whether any pixel picks a light whose first slot's words are `words`, `count` for each slot.
 static inline bool is_picked_by_any(CastLights from, uint j, global const uint* words, uint count) {
-    bool any = false;
-    for (uint slot = 0; slot < slots_of(from, j); slot = next_lobe(from, slot)) {
-        any |= any_word(words + slot * count, count);
-    }
-    return any;
+    uint bits = 0u;
+    for (uint i = 0; i < count; ++i) bits |= picked_bits(from, j, words + i, count);
+    return bits != 0u;
 }
 
 kernel void cast_shadows_reserve(uint tile_count, uint directional_count,

@@ -79,7 +79,7 @@ static inline bool shade_points(ShadowScene scene, ShadowLight light, local cons
             if (k >= points->row_count) continue;  // the same for all items
             MASK lit = lit_of(points, k);
             ADD_COUNT(points, points, lane_count(lit));
-            FV3 e = load_edge_points(points, k);
+            FV3 e = load_ray_ends(points, k);
             FV u0 = form4_at(f0, e);
             FV u1 = form4_at(f1, e);
             FV u2 = form4_at(f2, e);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Counts per pixel the lights, directional ones too, that it faces within their range, and those of
-// them that no caster hides. For views; no part of a frame otherwise.
+// them that no caster hides. For views; no part of a frame otherwise. Exact shadows only: it takes
+// each light to have one slot.
 // One work-item counts for VW pixels, neighbours in the order of their tile's clusters.
 #define ORDERED_PIXELS 1
 #include "kernels/device/lit_item.h"

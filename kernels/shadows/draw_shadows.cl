@@ -22,7 +22,7 @@ kernel void draw_shadows_clear(WORD_ARGS(), uint tile_count) {
 static inline bool find_candidates(ShadowBits bits, uint first, MASK mine, float rays, MASK* may) {
     MASK any = (MASK)(0);
     for (uint lobe = 0; lobe < AREA_LOBES; ++lobe) {
-        may[lobe] = mine & sees_light(bits, first + ray_slots(rays) + lobe);
+        may[lobe] = mine & sees_light(bits, first + light_ray_slots(rays) + lobe);
         any |= may[lobe];
     }
     return lane_any(any);
@@ -64,7 +64,7 @@ kernel void draw_shadows(LIT_ARGS, WORD_ARGS(), SAMPLE_ARGS) {
             LightSum one = EVALUATE(zero_sum(), p, LIGHT_AT(lights, light), extras, light);
 #if HAS_AREA_LIGHTS
             if (is_area) {
-                for (uint lobe = 0; lobe < AREA_LOBES; ++lobe, first += area_slots(rays)) {
+                for (uint lobe = 0; lobe < AREA_LOBES; ++lobe, first += lobe_slots(rays)) {
                     FV part = light_alone(pick, lobe_part(one, lobe));
                     FV pairs = picked_pairs(pick, part, light, lobe);
                     put_slots(bits, first, may[lobe], pairs, words);

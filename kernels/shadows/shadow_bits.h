@@ -8,19 +8,13 @@
 #include "kernels/shared/light_extras.h"
 #include "kernels/shared/shadow.h"
 
-// Lobes of a light with a size that have rays of their own: diffuse and, with SHADING_PBR, glossy.
-#if SHADING == SHADING_PBR
-#define AREA_LOBES 2u
-#else
-#define AREA_LOBES 1u
-#endif
-// Slots of a light of a list: for its rays; then, in scenes with area lights, one for each lobe
-// whose bits say which pixels may pick it (shadow_candidates.h).
+#define AREA_LOBES AREA_LOBES_OF(SHADING)
+// Slots of a light of a list: for its rays, and all.
 #if HAS_AREA_LIGHTS
-#define ray_slots(rays) (AREA_LOBES * area_slots(rays))
-#define light_slots(rays) (ray_slots(rays) + AREA_LOBES)
+#define light_ray_slots(rays) (AREA_LOBES * lobe_slots(rays))
+#define light_slots(rays) slots_of_light(AREA_LOBES, rays)
 #else
-#define ray_slots(rays) 1u
+#define light_ray_slots(rays) 1u
 #define light_slots(rays) 1u
 #endif
 

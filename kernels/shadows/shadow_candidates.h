@@ -65,7 +65,7 @@ static inline void mark_candidates(Candidates of, LightExtras extras, uint j, ui
 #endif
     if (!has_size(shape_of_light(extras, light))) return;
     uint key = light_key(of.tile, light);
-    uint first = of.directional_count + j * light_slots(of.rays) + ray_slots(of.rays);
+    uint first = of.directional_count + j * light_slots(of.rays) + light_ray_slots(of.rays);
     for (uint lobe = 0; lobe < AREA_LOBES; ++lobe) {
         float missing = 1.0f - random_of(lobe_key(key, lobe));
         float slack = CANDIDATE_SLACK * (of.rays + 4.0f);

@@ -64,7 +64,7 @@ typedef struct FoundTriangles {
 // The part of `lit`, of a row's points, that none of the triangles hides from the light.
 static inline MASK lit_by_row(const FoundTriangles* found, ShadowScene scene, ShadowLight light,
                               ShadowPoints* points, uint row, MASK lit) {
-    FV3 edge_point = load_edge_points(points, row);
+    FV3 edge_point = load_ray_ends(points, row);
     FV3 point = load_points(points, row);
     for (uint bits = found->wanted; bits != 0u; bits &= bits - 1u) {
         uint lane = lowest_bit(bits);

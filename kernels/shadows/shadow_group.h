@@ -20,6 +20,9 @@
 // their test.
 #define GROUP_RAYS 128u
 #define GROUP_PAIRS (4u * GROUP)
+#if GROUP > 512
+#error "GROUP must be at most 512: GroupRays numbers pairs by 16 bits"
+#endif
 // Words of a slot at most: a tile's pixels and the places beside them.
 #define GROUP_WORDS 16u
 
@@ -118,10 +121,7 @@ static inline uint find_picked(ClusterCast cast, uint first, local GroupWalk* wa
         uint j = first + k * SPLIT;
         if (j >= count_of_cluster(cast.from, cast.cluster)) break;
         if (word >= cast.count) continue;
-        uint bits = 0u;
-        for (uint slot = 0; slot < slots_of(cast.from, j); slot = next_lobe(cast.from, slot)) {
-            bits |= words_of_light(cast, j)[slot * cast.count + word];
-        }
+        uint bits = picked_bits(cast.from, j, words_of_light(cast, j) + word, cast.count);
         if (bits != 0u) atomic_or(&walk->picked, 1u << k);
     }
     barrier(CLK_LOCAL_MEM_FENCE);  // complete
@@ -131,7 +131,7 @@ static inline uint find_picked(ClusterCast cast, uint first, local GroupWalk* wa
 #define find_picked(cast, first, walk) 0xffffffffu
 #endif
 
-// Begins a walk at the root, which no item's points are yet to be lit for.
+// Starts a walk at the root. `lit` is 0 until an item sets it.
 static inline void begin_walk(local GroupWalk* walk) {
     if (this_item() != 0u) return;
     walk->stack[0] = 0u;

@@ -86,13 +86,13 @@ static inline LightSum lobe_part(LightSum one, uint lobe) {
 
 // Pairs of rays to a light with a size on average, y, and those that are picked.
 static inline FV mean_pairs(ShadowPick pick, FV alone) {
-    float most = (float)(area_slots(pick.rays) / 2u);
+    float most = (float)(lobe_slots(pick.rays) / 2u);
     return min(alone * pick.rays * 0.5f / max(pick.whole, fv(1e-30f)), fv(most));
 }
 
 static inline FV picked_pairs(ShadowPick pick, FV alone, uint light, uint lobe) {
     float random = random_of(lobe_key(light_key(pick.tile, light), lobe));
-    float most = (float)(area_slots(pick.rays) / 2u);
+    float most = (float)(lobe_slots(pick.rays) / 2u);
     return min(floor(mean_pairs(pick, alone) + random), fv(most));
 }
 

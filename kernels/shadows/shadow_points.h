@@ -173,9 +173,10 @@ static inline LaneBox grown_box(LaneBox box, MASK mask, FV3 p) {
     return box;
 }
 
-// Begins a light: finds the points of row `row` that it could reach. The eye must see the side of
-// the triangle that the light is on; beyond the range, and a little more, there is no light to
-// hide.
+// Returns the points of row `row` that face the light and are within its range. The eye must see
+// the side of the triangle that the light is on; beyond the range, and a little more, there is no
+// light to hide. For lights with a size it also draws each point's target and stores it in ex, ey,
+// ez.
 static inline MASK face_light(ShadowView view, ShadowPoints* points, uint row, ShadowLight light,
                               MASK wanted) {
     uint at = row * VW;
@@ -209,7 +210,7 @@ static inline MASK lit_of(const ShadowPoints* points, uint row) {
     return KX_CONCAT(as_, IV)(lane_load(points->lit + row * VW));
 }
 
-static inline FV3 load_edge_points(const ShadowPoints* points, uint row) {
+static inline FV3 load_ray_ends(const ShadowPoints* points, uint row) {
     uint at = row * VW;
     return fv3(lane_load(points->ex + at), lane_load(points->ey + at), lane_load(points->ez + at));
 }

@@ -18,7 +18,7 @@ static inline void walk_to(ShadowRays rays, ShadowLight light, MASK lit) {
     LaneBox box = grown_box(no_box(), lit, load_points(rays.points, 0u));
 #if AREA_SHADOWS
     if (light.is_area) {
-        LaneBox ends = grown_box(no_box(), lit, load_edge_points(rays.points, 0u));
+        LaneBox ends = grown_box(no_box(), lit, load_ray_ends(rays.points, 0u));
         light.area.low = box_low(ends);
         light.area.high = box_high(ends);
     }

@@ -3,7 +3,6 @@
 // which then any number of points evaluates.
 //
 // Seen from the light a point lies within a triangle's edges where u_i >= 0 for all i; u_i is the
-// Seen from the light a point lies within a triangle's edges where u_i >= 0 for all i; u_i is the
 // product of an edge's plane through the light, v_j x v_k, with the direction to the point. The
 // triangle hides the point if, in addition, its plane has the light on one side and the point on
 // the other. Rays of one light have their origin in common, so all four are affine in the point.

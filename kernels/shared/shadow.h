@@ -5,6 +5,7 @@
 // and lights do not move it, and the scene's size alone sets the rounding of its floats.
 #ifndef KILOLUX_SHARED_SHADOW_H
 #define KILOLUX_SHARED_SHADOW_H
+#include "kernels/shared/evaluate_modes.h"
 #include "kernels/shared/types.h"
 
 // Children of a node: boxes are tested so many at a time.
@@ -76,13 +77,22 @@ SHARED_STRUCT(ShadowView) {
 };
 SHARED_ASSERT(shadow_view_size, sizeof(ShadowView) == 64);
 
-// Rays, and places for their results, that sampled shadows have at most for each lobe of a light
-// with a size where each pixel casts `rays` on average: pairs. Shadows that are not sampled have 0
-// rays.
-SHARED_FN uint area_slots(float rays) {
+// Slots of one lobe of a light with a size: the most rays that a pixel casts to it, an even number.
+// 1 without sampling. rays: of a pixel on average, 0 without sampling.
+SHARED_FN uint lobe_slots(float rays) {
     if (rays <= 0.0f) return 1u;
     uint pairs = uint_of(min(fma(rays, 0.5f, 0.999f), float_of(AREA_SLOTS_MOST / 2u)));
     return 2u * max(pairs, 1u);
+}
+
+// Lobes of a light with a size that have rays of their own, by SHADING: diffuse and, with
+// SHADING_PBR, glossy.
+#define AREA_LOBES_OF(shading) ((shading) == SHADING_PBR ? 2u : 1u)
+
+// Slots of a light of a list in scenes with area lights: for the rays of its lobes; then one for
+// each lobe, whose bits say which pixels may pick it (shadows/shadow_candidates.h). 1 with 0 lobes.
+SHARED_FN uint slots_of_light(uint lobes, float rays) {
+    return max(lobes * (lobe_slots(rays) + 1u), 1u);
 }
 
 #if !defined(GL_core_profile)  // GLSL has no 64-bit integers

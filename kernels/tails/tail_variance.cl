@@ -35,7 +35,7 @@ static inline FV seen_share(ShadowPick pick, ShadowBits bits, uint i, FV alone) 
 static inline FV seen_area_share(ShadowPick pick, ShadowBits bits, uint i, LightSum one,
                                  uint light) {
     FV hidden = fv(0.0f);
-    for (uint lobe = 0; lobe < AREA_LOBES; ++lobe, i += area_slots(pick.rays)) {
+    for (uint lobe = 0; lobe < AREA_LOBES; ++lobe, i += lobe_slots(pick.rays)) {
         FV part = light_alone(pick, lobe_part(one, lobe));
         FV pairs = picked_pairs(pick, part, light, lobe);
         FV weight = area_weight(mean_pairs(pick, part), pairs, count_hidden(bits, i, pairs));

@@ -92,8 +92,8 @@ void visit_settings(BudgetOptions& options, const SettingVisitor& visit) {
         .rest()
         .number({"--max-error", "E", "",
                  "Use the fastest setting whose error on this scene and device is at most E; of "
-                 "sampled shadows it also chooses the rays, or exact ones, unless --shadow-rays "
-                 "is given",
+                 "sampled shadows it also chooses the rays, or exact ones (not where lights have "
+                 "a size), unless --shadow-rays is given",
                  kPicture, "the metric's"},
                 options.max_error, {0.0})
         .choice(

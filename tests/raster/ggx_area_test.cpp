@@ -44,7 +44,7 @@ float4 light_of(const Probe& probe) {
     const GgxLobe lobe = make_ggx_lobe(up, eye, probe.eye_roughness.w);
     const AreaFrame frame = make_area_frame(up, eye);
     const AreaLobe area = make_area_lobe(lobe, lobe.alpha);
-    const SeenLight seen =
+    const FramedLight seen =
         seen_light(fv3(probe.center.x, probe.center.y, probe.center.z), probe.shape);
     const LobeLight light = area_ggx(frame, lobe, area, light_in_frame(frame, seen));
     return {light.light, light.rise, 0.0f, 0.0f};
@@ -66,7 +66,7 @@ TEST_F(GgxAreaTest, GlslAndCppAgree) {
         "    GgxLobe lobe = make_ggx_lobe(up, eye, e.w);\n"
         "    AreaFrame frame = make_area_frame(up, eye);\n"
         "    AreaLobe area = make_area_lobe(lobe, lobe.alpha);\n"
-        "    SeenLight seen = seen_light(fv3(c.x, c.y, c.z), probe[i].shape);\n"
+        "    FramedLight seen = seen_light(fv3(c.x, c.y, c.z), probe[i].shape);\n"
         "    LobeLight light = area_ggx(frame, lobe, area, light_in_frame(frame, seen));\n"
         "    result[i] = vec4(light.light, light.rise, 0.0, 0.0);\n"
         "}\n");

@@ -186,7 +186,7 @@ TEST(GlowingSurfaces, WithoutAnAreaAreCounted) {
         mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2});
     }
     const Glow glow = glow_of(scene);
-    EXPECT_EQ(glow.counts.triangles + glow.counts.without_area, 9u);
+    EXPECT_EQ(glow.counts.triangles + glow.counts.left_out, 9u);
     EXPECT_EQ(glow.counts.triangles, 2u) << "the whole one and a speck";
     ASSERT_EQ(glow.lights.size(), 2u);
     for (const SceneLight& light : glow.lights) {
@@ -198,7 +198,8 @@ TEST(GlowingSurfaces, WithoutAnAreaAreCounted) {
         EXPECT_TRUE(is_finite(light.position) && is_finite(light.direction));
         EXPECT_TRUE(is_finite(light.side) && is_finite(glm::dvec3(light.intensity)));
     }
-    EXPECT_TRUE(contains(text_of(glow.counts), "7 triangles without an area"));
+    EXPECT_TRUE(contains(text_of(glow.counts),
+                         "7 triangles are left out: no area, or values out of range"));
 }
 
 // Of codes that are 1 where u < 1/2: three quarters of the triangle.
@@ -300,7 +301,7 @@ TEST(GlowingSurfaces, AreTheSameOnAnyNumberOfThreads) {
     EXPECT_EQ(glow_of(scene).lights, many.lights);
     EXPECT_GT(many.lights.size(), 15'000u);
     EXPECT_EQ(many.counts.meshes, 1u);
-    EXPECT_GT(many.counts.without_area, 0u) << "at the poles";
+    EXPECT_GT(many.counts.left_out, 0u) << "at the poles";
 }
 
 TEST(GlowingSurfaces, BeyondTheMemoryFailInOneLine) {

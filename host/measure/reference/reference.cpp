@@ -79,7 +79,7 @@ glm::dvec3 share_of_rays(const AreaShape& shape, const glm::dvec3& position,
     return share;
 }
 
-// The same with a quarter of the rays where they agree.
+// The same, with a quarter of the rays where all of these pass or none does.
 template <typename Reflected>
 glm::dvec3 passing_share(const AreaShape& shape, const glm::dvec3& position,
                          const ShadowPoint& point, const ReferenceOptions& options,

@@ -19,6 +19,11 @@ LightEdges edges_of(const SceneLight& light) {
     return {0.5 * double{light.width} * light.side, 0.5 * double{light.height} * across};
 }
 
+std::array<glm::dvec3, 3> corners_of(const glm::dvec3& centroid, const LightEdges& edges) {
+    const glm::dvec3 first = centroid - (edges.x + edges.y) / 3.0;
+    return {first, first + edges.x, first + edges.y};
+}
+
 double seen_area(const SceneLight& light) {
     const double box = double{light.width} * double{light.height};
     switch (light.type) {

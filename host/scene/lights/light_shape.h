@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+
 #include "host/scene/scene.h"
 
 namespace kilolux {
@@ -14,6 +16,9 @@ struct LightEdges {
 
 /// Of a rectangle or disk half its width and height; of a triangle its edges from the first corner.
 LightEdges edges_of(const SceneLight& light);
+
+/// The corners of a triangle by its centroid and its edges from the first corner.
+std::array<glm::dvec3, 3> corners_of(const glm::dvec3& centroid, const LightEdges& edges);
 
 /// The area that is seen from straight ahead [m^2]: of a sphere its great circle's; 0 without a
 /// size.

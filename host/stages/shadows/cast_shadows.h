@@ -23,8 +23,8 @@ class CastShadows {
 
     /// Makes room for the words, and sets first_pixel and first_word of the clusters. Blocks for
     /// the number of words. Throws Error when the device cannot hold them. Valid until the next
-    /// call. `slots`: of each light of a list; 1, or light_slots() of
-    /// kernels/shadows/shadow_bits.h for sampled shadows in scenes with area lights.
+    /// call. `slots`: of each light of a list; 1, or slots_of_light() of
+    /// kernels/shared/shadow.h for sampled shadows in scenes with area lights.
     ShadowWords reserve(const PreparedLights& lights, const ActiveClusters& clusters,
                         StageTimer& timer, uint slots = 1);
 

@@ -48,8 +48,9 @@ SHARED_PLAIN_STRUCT(AreaLobe) {
     FV rise;                 // the mean of Schlick's (1 - v.h)^5 over the lobe
     FV inverse_density;      // 1 / (2 albedo along across)
 #if HAS_ANISOTROPY
-    FV tangent_x, tangent_y;                // in the frame
-    FV stretch_xx, stretch_xy, stretch_yy;  // what makes a round transformed light a stretched one
+    FV tangent_x, tangent_y;  // in the frame
+    // symmetric 2x2 matrix that scales along and across the tangent
+    FV stretch_xx, stretch_xy, stretch_yy;
 #endif
 };
 

@@ -4,11 +4,14 @@
 //
 // Diffuse light and sheen depend on the light's direction beyond the cosine: by Schlick's
 // reflectance and by the sheen's lobe. Both are taken in the direction of a typical point. Mean
-// errors at widths of 0.05, 0.4 and 1.5 of the distance and n.v of at least 0.2: dielectrics of
-// roughness 1 0.02, 0.3 and 0.5 %, the same with sheen of roughness 0.5 0.1, 1.3 and 6 %, metal of
-// roughness 0.4 0.5, 3 and 6 %, and 2, 15 and 24 % with anisotropy 0.6
-// (tests/measure/area/area_lobes_test.cpp). Narrow lobes of strong anisotropy are rough
-// approximations.
+// errors [%] by the light's width / distance, where n.v is at least 0.2
+// (tests/measure/area/area_lobes_test.cpp):
+//   material                               0.05   0.4   1.5
+//   dielectric of roughness 1              0.02   0.3   0.5
+//   the same with sheen of roughness 0.5   0.1    1.3   6
+//   metal of roughness 0.4                 0.5    3     6
+//   the same with anisotropy 0.6           2      15    24
+// Narrow lobes of strong anisotropy are rough approximations.
 #ifndef KILOLUX_SHARED_AREA_AREA_LOBES_H
 #define KILOLUX_SHARED_AREA_AREA_LOBES_H
 #include "kernels/shared/area/ggx_area.h"
@@ -27,7 +30,7 @@ namespace kilolux {
 #if HAS_COAT
 // 2 pi times the light of luminance 1 that a coat of share 1 reflects. `view`, `framed`: the light
 // in view space, and in the frame of the surface.
-SHARED_FN FV coat_area_light(ShadingPoint p, SeenLight view, SeenLight framed) {
+SHARED_FN FV coat_area_light(ShadingPoint p, FramedLight view, FramedLight framed) {
 #if HAS_COAT_NORMAL
     return area_ggx(p.coat_frame, p.coat, p.coat_area, light_in_frame(p.coat_frame, view)).light;
 #else
@@ -48,17 +51,18 @@ SHARED_FN FV sheen_area_light(ShadingPoint p, FV3 l, FV cosine) {
 
 // Adds a light of luminance `weight` * color. `view`: in view space, its centre relative to the
 // shading point.
-SHARED_FN LightSum add_area_lobes(LightSum sum, ShadingPoint p, SeenLight view, FV weight,
+SHARED_FN LightSum add_area_lobes(LightSum sum, ShadingPoint p, FramedLight view, FV weight,
                                   float4 color) {
-    SeenLight framed = light_in_frame(p.frame, view);
-    FV cosine = light_cosine(framed, false);
+    FramedLight framed = light_in_frame(p.frame, view);
+    FV cosine = area_irradiance(framed, false);
 #if !(HAS_COAT && HAS_COAT_NORMAL)
     // Below the horizon of all lobes. A lane has the same light whatever the others have.
     MASK above_horizon = cosine > fv(0.0f);
     if (!lane_any(above_horizon)) return sum;
     weight = lane_select(above_horizon, weight, fv(0.0f));
 #endif
-    FV3 v = typical_vector(framed, typical_point(with_half_sides(framed), fill_of(framed)));
+    FV3 v = typical_vector(
+        framed, typical_point(equal_variance_parallelogram(framed), inverse_variance_of(framed)));
     FV3 l = scale3(v, lane_rsqrt(max(dot3(v, v), fv(1e-30f))));
     FV cos2_half = fma(p.frame.eye_x, l.x, fma(p.frame.eye_z, l.z, fv(1.0f)));  // 2 (v.h)^2
     FV cos_half = lane_sqrt(max(fv(0.5f) * cos2_half, fv(0.0f)));
@@ -86,9 +90,9 @@ SHARED_FN LightSum add_area_lobes(LightSum sum, ShadingPoint p, SeenLight view, 
                         above, color);
 }
 #else
-SHARED_FN LightSum add_area_lobes(LightSum sum, ShadingPoint p, SeenLight view, FV weight,
+SHARED_FN LightSum add_area_lobes(LightSum sum, ShadingPoint p, FramedLight view, FV weight,
                                   float4 color) {
-    FV cosine = light_cosine(light_in_frame(p.frame, view), false);
+    FV cosine = area_irradiance(light_in_frame(p.frame, view), false);
     sum.diffuse = add_scaled(sum.diffuse, weight * cosine, color);
     return sum;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shape of a light with a size. A light of one shines with even luminance; its row of light.h
-// is that of its centre, and color_scale.xyz its intensity straight ahead: luminance * the area
-// that is seen from there [cd].
+// The shape of a light with a size. Such a light has the same luminance everywhere. Its row in
+// light.h is that of a point at its centre. color_scale.xyz: intensity straight ahead [cd] =
+// luminance * projected area.
 #ifndef KILOLUX_SHARED_AREA_AREA_SHAPE_H
 #define KILOLUX_SHARED_AREA_AREA_SHAPE_H
 #include "kernels/shared/types.h"
@@ -19,7 +19,8 @@
 namespace kilolux {
 #endif
 
-// Beside a light's row, of scenes that have such lights; in the axes of the light's position.
+// Beside a light's row, of scenes that have such lights; in the axes of the light's position. A
+// triangle's half_x and half_y are its full edges.
 SHARED_STRUCT(LightShape) {
     float4 half_x;  // xyz: along the width [m]; w: SHAPE_*, negative if both sides shine
     // xyz: along the height [m]; w: 1 / the area that is seen from straight ahead [1/m^2].

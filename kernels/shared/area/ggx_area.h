@@ -4,8 +4,9 @@
 //
 //   integral of D V n.l over the light = albedo / pi * E(transformed light) * f,
 //
-// E: irradiance of luminance 1. f pulls towards the ratio R of D V n.l to the transformed cosine at
-// a typical point of the light, near the mean of its points weighted by the transformed cosine:
+// E: irradiance of luminance 1. f corrects the fit at one typical point of the light, near the mean
+// of its points weighted by the transformed cosine: R is the true lobe D V n.l / the transformed
+// cosine there, w its weight.
 //   f = 1 + w (R - 1) where R < 1, else 1 / (1 + w (1 / R - 1)):
 // between 1 - w and 1 / (1 - w), and smooth at R = 1.
 //   w = (1 - E / pi) / (1 + s^2 / 4), s: size of the transformed light / distance,
@@ -24,17 +25,17 @@
 namespace kilolux {
 #endif
 
-// A light as a surface point sees it, with its centre relative to the point. A sphere is the disk
-// that fills the same solid angle.
-SHARED_PLAIN_STRUCT(SeenLight) {
+// A light in some frame about a surface point: its centre is relative to the point. A sphere is the
+// disk that fills the same solid angle.
+SHARED_PLAIN_STRUCT(FramedLight) {
     uint kind;
     FlatLight at;
 };
 
 // The light of a row with a size, its centre at `v`, in the row's axes. A light of two sides turns
 // the one that shines on the point to it.
-SHARED_FN SeenLight seen_light(FV3 v, LightShape shape) {
-    SeenLight light;
+SHARED_FN FramedLight seen_light(FV3 v, LightShape shape) {
+    FramedLight light;
     light.kind = shape_kind(shape);
     light.at.center = v;
     light.at.half_x = fv3(fv(shape.half_x.x), fv(shape.half_x.y), fv(shape.half_x.z));
@@ -50,7 +51,7 @@ SHARED_FN SeenLight seen_light(FV3 v, LightShape shape) {
     return light;
 }
 
-SHARED_FN SeenLight light_in_frame(AreaFrame frame, SeenLight light) {
+SHARED_FN FramedLight light_in_frame(AreaFrame frame, FramedLight light) {
     light.at.center = to_frame(frame, light.at.center);
     light.at.half_x = to_frame(frame, light.at.half_x);
     light.at.half_y = to_frame(frame, light.at.half_y);
@@ -58,20 +59,20 @@ SHARED_FN SeenLight light_in_frame(AreaFrame frame, SeenLight light) {
 }
 
 // The irradiance of luminance 1 on a surface of normal +z [sr]; is_lobe: of a transformed light.
-SHARED_FN FV light_cosine(SeenLight light, bool is_lobe) {
+SHARED_FN FV area_irradiance(FramedLight light, bool is_lobe) {
     FlatLight at = light.at;
     if (light.kind == SHAPE_RECTANGLE) {
-        return parallelogram_cosine(at.center, at.half_x, at.half_y, is_lobe);
+        return parallelogram_irradiance(at.center, at.half_x, at.half_y, is_lobe);
     }
     if (light.kind == SHAPE_TRIANGLE) {
-        return triangle_cosine(at.center, at.half_x, at.half_y, is_lobe);
+        return triangle_irradiance(at.center, at.half_x, at.half_y, is_lobe);
     }
-    if (light.kind == SHAPE_SPHERE && !is_lobe) return facing_disk_cosine(at.center, at.half_x);
-    return disk_cosine(at.center, at.half_x, at.half_y, is_lobe);
+    if (light.kind == SHAPE_SPHERE && !is_lobe) return facing_disk_irradiance(at.center, at.half_x);
+    return disk_irradiance(at.center, at.half_x, at.half_y, is_lobe);
 }
 
-// The half sides of a parallelogram whose points have the variances of a triangle's.
-SHARED_FN FlatLight with_half_sides(SeenLight light) {
+// As a parallelogram, by its half sides: of a triangle the one whose points have its variances.
+SHARED_FN FlatLight equal_variance_parallelogram(FramedLight light) {
     FlatLight at = light.at;
     if (light.kind == SHAPE_TRIANGLE) {
         FV3 x = at.half_x, y = at.half_y;
@@ -83,11 +84,11 @@ SHARED_FN FlatLight with_half_sides(SeenLight light) {
 
 // Where, from -1 to 1 along a half side, the mean of points of the weight z / distance^4 lies: to
 // first order in the side's length, and nearest to the origin for long sides.
-SHARED_FN FV typical_offset(FV3 center, FV3 side, FV center2, FV side2, FV fill) {
+SHARED_FN FV typical_offset(FV3 center, FV3 side, FV center2, FV side2, FV inverse_variance) {
     // A side of which a part is below the horizon counts as one that touches it.
     FV z = max(max(center.z, max(side.z, -side.z)), fv(1e-12f));
     FV pull = fma(fv(0.25f) * center2, side.z, -(dot3(center, side) * z));
-    return lane_divide(pull, max(z * fma(fill, center2, side2), fv(1e-30f)));
+    return lane_divide(pull, max(z * fma(inverse_variance, center2, side2), fv(1e-30f)));
 }
 
 SHARED_PLAIN_STRUCT(TypicalPoint) {
@@ -95,18 +96,20 @@ SHARED_PLAIN_STRUCT(TypicalPoint) {
     FV size2;  // |half_x|^2 + |half_y|^2
 };
 
-// The typical point of the cosine lobe's light. fill: 1 / (4 variance) of points along a half side.
-SHARED_FN TypicalPoint typical_point(FlatLight at, FV fill) {
+// The typical point of the cosine lobe's light. inverse_variance: 1 / (4 variance) of points along
+// a half side.
+SHARED_FN TypicalPoint typical_point(FlatLight at, FV inverse_variance) {
     FV center2 = dot3(at.center, at.center);
     FV x2 = dot3(at.half_x, at.half_x), y2 = dot3(at.half_y, at.half_y);
     TypicalPoint point;
-    point.x = typical_offset(at.center, at.half_x, center2, x2, fill);
-    point.y = typical_offset(at.center, at.half_y, center2, y2, fill);
+    point.x = typical_offset(at.center, at.half_x, center2, x2, inverse_variance);
+    point.y = typical_offset(at.center, at.half_y, center2, y2, inverse_variance);
     point.size2 = x2 + y2;
     return point;
 }
 
-SHARED_FN FV fill_of(SeenLight light) {
+// 1 / (4 variance) of points along a half side.
+SHARED_FN FV inverse_variance_of(FramedLight light) {
     return fv(light.kind == SHAPE_DISK || light.kind == SHAPE_SPHERE ? 1.0f : 0.75f);
 }
 
@@ -127,8 +130,8 @@ SHARED_FN FV3 lifted_vector(FlatLight at, FV3 v) {
 }
 
 // A light's typical point, not below the horizon.
-SHARED_FN FV3 typical_vector(SeenLight light, TypicalPoint point) {
-    FlatLight at = with_half_sides(light);
+SHARED_FN FV3 typical_vector(FramedLight light, TypicalPoint point) {
+    FlatLight at = equal_variance_parallelogram(light);
     return lifted_vector(at, point_of(at, point));
 }
 
@@ -178,13 +181,14 @@ SHARED_PLAIN_STRUCT(LobeLight) {
 };
 
 // `light`: in the frame of the lobe's normal.
-SHARED_FN LobeLight area_ggx(AreaFrame frame, GgxLobe lobe, AreaLobe area, SeenLight light) {
-    SeenLight bent = light;
+SHARED_FN LobeLight area_ggx(AreaFrame frame, GgxLobe lobe, AreaLobe area, FramedLight light) {
+    FramedLight bent = light;
     bent.at.center = transformed(area, light.at.center);
     bent.at.half_x = transformed(area, light.at.half_x);
     bent.at.half_y = transformed(area, light.at.half_y);
-    FV cosine = light_cosine(bent, true);
-    TypicalPoint point = typical_point(with_half_sides(bent), fill_of(light));
+    FV cosine = area_irradiance(bent, true);
+    TypicalPoint point =
+        typical_point(equal_variance_parallelogram(bent), inverse_variance_of(light));
     FV3 v = typical_vector(light, point);
     FV inverse = lane_rsqrt(max(dot3(v, v), fv(1e-30f)));
     FV3 l = scale3(v, inverse);

@@ -16,8 +16,8 @@
 // there: tests/measure/area/area_cosine_test.cpp prints them.
 #define SMALL_LIGHT 0.005f
 #define SMALL_TRIANGLE 0.003f
-// As SMALL_LIGHT for the transformed lights of a lobe, whose fit is off by more than the samples:
-// lights that the horizon cuts, too.
+// Limit for transformed lights. It is larger because the fit errs more than four samples do. It
+// also applies to lights cut by the horizon.
 #define SMALL_LOBE_LIGHT 0.012f
 // Below this one distant_edge can be used, and below the next it is where the horizon cuts.
 #define DISTANT_LIGHT 0.1f
@@ -98,9 +98,9 @@ SHARED_FN FV angle_excess(FV v) {
     return fma(s, v, fv(0.333333969f));
 }
 
-// As edge_term from center + p to center + q, times |center|^2, and less the part that is 0 in the
-// sum over a closed outline: the difference of the edge's weight from that of the centre is exact.
-// For offsets up to half of the distance. center, p and q in units of |center|.
+// As edge_term from center + p to center + q, times |center|^2. Omits the centre's weight times the
+// edge: over a closed outline these terms sum to 0. For offsets up to half of the distance. center,
+// p and q in units of |center|.
 SHARED_FN FV distant_edge(FV3 center, FV3 p, FV3 q) {
     FV to_p = dot3(p, add3(add3(center, center), p));  // |center + p|^2 - 1
     FV to_q = dot3(q, add3(add3(center, center), q));
@@ -235,7 +235,7 @@ SHARED_FN FV polygon_way(FV3 center, Corners at, FV square, FV3 area, float limi
 }
 
 // The parallelogram or, with c = d, triangle with these corners; `samples`: its result by samples.
-SHARED_FN FV polygon_cosine(FV3 center, Corners at, FV way, FV samples) {
+SHARED_FN FV polygon_irradiance(FV3 center, Corners at, FV way, FV samples) {
     FV cosine = samples;
     if (lane_any(way == BY_EDGES))
         cosine = lane_select(way == BY_EDGES, edge_sum(center, at) * -0.5f, cosine);
@@ -251,7 +251,7 @@ SHARED_FN FV polygon_cosine(FV3 center, Corners at, FV way, FV samples) {
 }
 
 // Centre and half sides of a parallelogram.
-SHARED_FN FV parallelogram_cosine(FV3 center, FV3 half_x, FV3 half_y, bool is_lobe) {
+SHARED_FN FV parallelogram_irradiance(FV3 center, FV3 half_x, FV3 half_y, bool is_lobe) {
     FV3 area = cross3(half_x, half_y);
     Corners at;
     at.c = add3(half_x, half_y);
@@ -264,7 +264,7 @@ SHARED_FN FV parallelogram_cosine(FV3 center, FV3 half_x, FV3 half_y, bool is_lo
     if (lane_any(way == BY_SAMPLES))
         samples = four_samples(center, scale3(half_x, fv(0.577350269f)),
                                scale3(half_y, fv(0.577350269f)), -dot3(center, area));
-    return polygon_cosine(center, at, way, samples);
+    return polygon_irradiance(center, at, way, samples);
 }
 
 // Two samples on each of two lines parallel to edge_y.
@@ -279,7 +279,7 @@ SHARED_FN FV triangle_samples(FV3 corner, FV3 edge_x, FV3 edge_y, FV scale) {
 }
 
 // Centroid of a triangle, and its edges from the first corner to the second and third.
-SHARED_FN FV triangle_cosine(FV3 center, FV3 edge_x, FV3 edge_y, bool is_lobe) {
+SHARED_FN FV triangle_irradiance(FV3 center, FV3 edge_x, FV3 edge_y, bool is_lobe) {
     FV3 area = cross3(edge_x, edge_y);
     Corners at;
     at.a = scale3(add3(edge_x, edge_y), fv(-1.0f / 3.0f));
@@ -291,7 +291,7 @@ SHARED_FN FV triangle_cosine(FV3 center, FV3 edge_x, FV3 edge_y, bool is_lobe) {
     FV samples = fv(0.0f);
     if (lane_any(way == BY_SAMPLES))
         samples = triangle_samples(add3(center, at.a), edge_x, edge_y, -dot3(center, area));
-    return polygon_cosine(center, at, way, samples);
+    return polygon_irradiance(center, at, way, samples);
 }
 
 #if defined(__cplusplus)

@@ -4,6 +4,7 @@
 // cone about the same axis that touches the horizon with it.
 #ifndef KILOLUX_SHARED_AREA_ROUND_LIGHT_H
 #define KILOLUX_SHARED_AREA_ROUND_LIGHT_H
+#include "kernels/shared/area/axes_beside.h"
 #include "kernels/shared/area/polygon_light.h"
 #include "kernels/shared/power.h"
 #include "kernels/shared/types.h"
@@ -54,12 +55,12 @@ SHARED_FN FV cone_cosine(FV axis_z, FV sine2, FV cosine2) {
     return share;
 }
 
-// Centre and half axes of an ellipse.
+// A flat light: its centre, and half_x and half_y as in LightShape.
 SHARED_PLAIN_STRUCT(FlatLight) { FV3 center, half_x, half_y; };
 
 // The irradiance of a disk that is perpendicular to the direction to its centre, and shines to the
 // origin: of a sphere's solid angle. Exact; 0 for the disk of a sphere around the origin.
-SHARED_FN FV facing_disk_cosine(FV3 center, FV3 half_x) {
+SHARED_FN FV facing_disk_irradiance(FV3 center, FV3 half_x) {
     FV distance2 = dot3(center, center), radius2 = dot3(half_x, half_x);
     FV inverse2 = lane_divide(fv(1.0f), max(distance2 + radius2, fv(SMALLEST_SQUARE)));
     FV sine2 = max(radius2 * inverse2, fv(1e-37f));
@@ -75,16 +76,13 @@ SHARED_FN FlatLight sphere_disk(FV3 center, FV radius) {
     FV inverse = inverse_length(square);
     FV share = max(fma(-radius * inverse, radius * inverse, fv(1.0f)), fv(0.0f));
     FV3 axis = scale3(center, inverse);
-    // Duff et al. 2017, "Building an orthonormal basis, revisited".
     FV side = lane_select(axis.z < 0.0f, fv(-1.0f), fv(1.0f));
-    FV a = lane_divide(fv(-1.0f), side + axis.z);
-    FV b = axis.x * axis.y * a;
+    AxesBeside axes = axes_beside(axis, side, lane_divide(fv(-1.0f), side + axis.z));
     FV size = radius * lane_sqrt(share);
     FlatLight disk;
     disk.center = scale3(center, share);
-    disk.half_y = fv3(size * fma(side * axis.x, axis.x * a, fv(1.0f)), size * side * b,
-                      -size * side * axis.x);
-    disk.half_x = fv3(size * b, size * fma(axis.y, axis.y * a, side), -size * axis.y);
+    disk.half_y = scale3(axes.x, size);
+    disk.half_x = scale3(axes.y, size);
     return disk;
 }
 
@@ -163,7 +161,7 @@ SHARED_FN FV log2_of_quotient(FV a, FV b) {
 
 // The cone's irradiance where the horizon cuts it: the integral along the outline, which is
 // (sqrt(p) cos(f), sqrt(q) sin(f), sqrt(k)) about its axes, and the edge on the horizon.
-SHARED_FN FV cut_ellipse_cosine(EllipseCone cone) {
+SHARED_FN FV cut_ellipse_irradiance(EllipseCone cone) {
     FV k = cone.k, p = cone.p, q = cone.q;
     FV pq = max(p - q, p * 1e-6f), pk = p + k, qk = q + k;
     FV side2 = max(fma(-cone.axis_z, cone.axis_z, fv(1.0f)), fv(0.0f));
@@ -197,22 +195,23 @@ SHARED_FN FV cut_ellipse_cosine(EllipseCone cone) {
     return 0.5f * (sum + turn_of(max(normal, fv(0.0f)), dot));
 }
 
-// As disk_cosine, for lights of any size and at the horizon. `large`: where the integral along the
-// outline is used; it cancels in small lights, whose cut is that of the circular cone about the
+// As disk_irradiance, for lights of any size and at the horizon. `large`: where the integral along
+// the outline is used; it cancels in small lights, whose cut is that of the circular cone about the
 // same axis that touches the horizon with them.
-SHARED_FN FV ellipse_cosine(FV3 center, FV3 half_x, FV3 half_y, MASK large) {
+SHARED_FN FV ellipse_irradiance(FV3 center, FV3 half_x, FV3 half_y, MASK large) {
     EllipseCone cone = ellipse_cone(center, half_x, half_y);
     FV rest = cone.k * fma(-cone.axis_z, cone.axis_z, fv(1.0f));
     FV both = lane_divide(fv(1.0f), max(cone.spread + rest, fv(1e-37f)));
     FV sine2 = max(cone.spread * both, fv(1e-37f));
     FV cosine = cone.faced * cone_cosine(cone.axis_z, sine2, rest * both);
     FV cut = lane_select(large, sine2 - cone.axis_z * cone.axis_z, fv(0.0f));
-    if (lane_any(cut > 0.0f)) cosine = lane_select(cut > 0.0f, cut_ellipse_cosine(cone), cosine);
+    if (lane_any(cut > 0.0f))
+        cosine = lane_select(cut > 0.0f, cut_ellipse_irradiance(cone), cosine);
     return lane_select(cone.faced > 0.0f, cosine, fv(0.0f));
 }
 
 // An ellipse that shines to the side of half_x x half_y. is_lobe: as of polygons.
-SHARED_FN FV disk_cosine(FV3 center, FV3 half_x, FV3 half_y, bool is_lobe) {
+SHARED_FN FV disk_irradiance(FV3 center, FV3 half_x, FV3 half_y, bool is_lobe) {
     FV square = dot3(half_x, half_x) + dot3(half_y, half_y);
     FV reach2 = fma(half_x.z, half_x.z, half_y.z * half_y.z);
     FV facing = -dot3(center, cross3(half_x, half_y));
@@ -229,7 +228,7 @@ SHARED_FN FV disk_cosine(FV3 center, FV3 half_x, FV3 half_y, bool is_lobe) {
         cosine = lane_select(way == BY_SAMPLES, samples, cosine);
     }
     if (lane_any(way == BY_EDGES)) {
-        FV exact = ellipse_cosine(center, half_x, half_y, large);
+        FV exact = ellipse_irradiance(center, half_x, half_y, large);
         cosine = lane_select(way == BY_EDGES, exact, cosine);
     }
     return max(min(cosine, fv(3.14159265f)), fv(0.0f));

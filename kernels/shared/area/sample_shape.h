@@ -11,6 +11,7 @@
 #define KILOLUX_SHARED_AREA_SAMPLE_SHAPE_H
 #include "kernels/shared/angle.h"
 #include "kernels/shared/area/area_shape.h"
+#include "kernels/shared/area/axes_beside.h"
 #include "kernels/shared/types.h"
 
 #if defined(__cplusplus)
@@ -28,7 +29,7 @@ SHARED_PLAIN_STRUCT(FanTriangle) {
 };
 
 // A shape in the axes of a surface point's light vectors, seen from the point.
-SHARED_PLAIN_STRUCT(SeenShape) {
+SHARED_PLAIN_STRUCT(SampledShape) {
     FV3 center;          // from the point [m]
     FV3 normal;          // of the surface, unit
     uint kind;           // SHAPE_*
@@ -86,13 +87,13 @@ SHARED_FN FV3 higher(FV3 a, FV3 b, FV3 normal) {
 }
 
 // Of an ellipse.
-SHARED_FN FV3 highest_of_ellipse(SeenShape of) {
+SHARED_FN FV3 highest_of_ellipse(SampledShape of) {
     FV x = dot3(of.half_x, of.normal), y = dot3(of.half_y, of.normal);
     FV inverse = lane_rsqrt(max(fma(x, x, y * y), fv(1e-36f)));
     return add_along(add_along(of.center, of.half_x, x * inverse), of.half_y, y * inverse);
 }
 
-SHARED_FN SeenShape see_polygon(SeenShape out, FV3 a, FV3 b, FV3 c, FV3 d) {
+SHARED_FN SampledShape see_polygon(SampledShape out, FV3 a, FV3 b, FV3 c, FV3 d) {
     FV3 first = unit_direction(a), second = unit_direction(b);
     FV3 third = unit_direction(c), last = unit_direction(d);
     out.first = first;
@@ -112,7 +113,7 @@ SHARED_FN SeenShape see_polygon(SeenShape out, FV3 a, FV3 b, FV3 c, FV3 d) {
 }
 
 // A point inside sees nothing.
-SHARED_FN SeenShape see_sphere(SeenShape out, FV radius) {
+SHARED_FN SampledShape see_sphere(SampledShape out, FV radius) {
     FV d2 = max(dot3(out.center, out.center), fv(1e-36f));
     FV inv_d = lane_rsqrt(d2);
     FV sine2 = radius * radius * (inv_d * inv_d);
@@ -132,8 +133,8 @@ SHARED_FN SeenShape see_sphere(SeenShape out, FV radius) {
 
 // half_x, half_y: of the light of kind `kind`, as in LightShape. `center`: from the surface point;
 // `normal`: of the surface, unit. All in the same axes.
-SHARED_FN SeenShape see_shape(uint kind, FV3 center, FV3 half_x, FV3 half_y, FV3 normal) {
-    SeenShape out;
+SHARED_FN SampledShape see_shape(uint kind, FV3 center, FV3 half_x, FV3 half_y, FV3 normal) {
+    SampledShape out;
     out.center = center;
     out.normal = normal;
     out.kind = kind;
@@ -151,7 +152,7 @@ SHARED_FN SeenShape see_shape(uint kind, FV3 center, FV3 half_x, FV3 half_y, FV3
 }
 
 // The unit direction of (u, v) in a fan.
-SHARED_FN FV3 fan_direction(IN(SeenShape) of, FV u, FV v) {
+SHARED_FN FV3 fan_direction(IN(SampledShape) of, FV u, FV v) {
     FV angle = u * AT(of).solid_angle;
     FV of_first = AT(of).fan[0].solid_angle;
     MASK second = angle > of_first;
@@ -177,24 +178,20 @@ SHARED_FN FV3 fan_direction(IN(SeenShape) of, FV u, FV v) {
     return add_along(out, AT(of).first, versine * (t - v));
 }
 
-SHARED_FN FV3 cone_direction(IN(SeenShape) of, FV u, FV v) {
+SHARED_FN FV3 cone_direction(IN(SampledShape) of, FV u, FV v) {
     FV versine = u * AT(of).cone;
     FV sine = lane_sqrt(max(versine * (fv(2.0f) - versine), fv(0.0f)));
     SineCosine turn = sine_cosine(fma(v, fv(6.283185307f), fv(-3.141592654f)));
     FV3 n = AT(of).first;
-    // Axes beside the cone's: Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
     FV sign = lane_select(n.z < fv(0.0f), fv(-1.0f), fv(1.0f));
-    FV a = fv(-1.0f) / (sign + n.z);
-    FV b = n.x * n.y * a;
-    FV3 x = fv3(fma(sign * n.x, n.x * a, fv(1.0f)), sign * b, -sign * n.x);
-    FV3 y = fv3(b, fma(n.y, n.y * a, sign), -n.y);
+    AxesBeside axes = axes_beside(n, sign, fv(-1.0f) / (sign + n.z));
     FV3 out = scale3(n, fv(1.0f) - versine);
-    out = add_along(out, x, sine * turn.cosine);
-    return add_along(out, y, sine * turn.sine);
+    out = add_along(out, axes.x, sine * turn.cosine);
+    return add_along(out, axes.y, sine * turn.sine);
 }
 
 // The nearer point of a sphere in a direction.
-SHARED_FN FV3 sphere_point(IN(SeenShape) of, FV3 direction) {
+SHARED_FN FV3 sphere_point(IN(SampledShape) of, FV3 direction) {
     FV along = dot3(direction, AT(of).center);
     FV3 aside = add_along(AT(of).center, direction, -along);
     FV radius2 = dot3(AT(of).half_x, AT(of).half_x);
@@ -202,7 +199,7 @@ SHARED_FN FV3 sphere_point(IN(SeenShape) of, FV3 direction) {
 }
 
 // The point of a flat shape's plane in a direction, no farther than its corners.
-SHARED_FN FV3 plane_point(IN(SeenShape) of, FV3 direction) {
+SHARED_FN FV3 plane_point(IN(SampledShape) of, FV3 direction) {
     FV3 normal = cross3(AT(of).half_x, AT(of).half_y);
     FV height = dot3(normal, AT(of).center), slope = dot3(normal, direction);
     FV3 farthest = scale3(direction, AT(of).distance);
@@ -212,7 +209,7 @@ SHARED_FN FV3 plane_point(IN(SeenShape) of, FV3 direction) {
 }
 
 // 1 inside the ellipse, else 0. Its half axes need not be perpendicular.
-SHARED_FN FV in_ellipse(IN(SeenShape) of, FV3 to_light) {
+SHARED_FN FV in_ellipse(IN(SampledShape) of, FV3 to_light) {
     FV3 at = sub3(to_light, AT(of).center);
     FV3 normal = cross3(AT(of).half_x, AT(of).half_y);
     FV inverse = fv(1.0f) / max(dot3(normal, normal), fv(1e-36f));
@@ -223,7 +220,7 @@ SHARED_FN FV in_ellipse(IN(SeenShape) of, FV3 to_light) {
 
 // u, v: in [0, 1). Even in solid angle; what is kept by `share` has a density in proportion to the
 // cosine with the surface's normal.
-SHARED_FN ShapeSample sample_shape(IN(SeenShape) of, FV u, FV v) {
+SHARED_FN ShapeSample sample_shape(IN(SampledShape) of, FV u, FV v) {
     ShapeSample out;
     bool is_sphere = AT(of).kind == SHAPE_SPHERE;
     FV3 direction;

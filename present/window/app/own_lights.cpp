@@ -100,7 +100,7 @@ void OwnLights::end_sending(bool accepted) {
         originals_.insert_or_assign(light, original);
         if (before == original) originals_.erase(light);
     }
-    point_size_ = scene_point_size_;
+    set_point_size(scene_point_size_);
     count_kinds();
 }
 

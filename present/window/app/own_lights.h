@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <vector>
 
 #include "host/scene/animated_scene.h"
@@ -9,8 +10,8 @@
 
 namespace kilolux {
 
-/// The scene's own lights with the user's changes. It is a copy: the scene's lights are the
-/// worker's, which begin_sending() has follow.
+/// A copy of the scene's lights with the user's changes. The worker owns the scene's lights;
+/// begin_sending() returns what it must update.
 class OwnLights {
  public:
     /// `point_size`: the radius that the points of `lights` without one have got [m].
@@ -33,8 +34,9 @@ class OwnLights {
     void set_point_size(double radius);
     double point_size() const { return point_size_; }
 
-    /// Whether the scene lacks changes; these, for AnimatedScene::exchange_lights(). Call
-    /// end_sending() before the next ones: if it refused them, the lights are what they were.
+    /// has_news: some changes are not sent yet. begin_sending() returns them for exchange_lights().
+    /// end_sending() must follow before the next begin_sending(). If the scene refused them, it
+    /// restores the lights.
     bool has_news() const { return !before_.empty(); }
     std::vector<NumberedLight> begin_sending();
     void end_sending(bool accepted);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <glm/glm.hpp>
 
 #include "host/render/settings.h"
 #include "host/scene/lights/rig.h"
@@ -35,11 +36,12 @@ struct ViewState {
     bool probe = false;  // show the lists of the pixel under the mouse
     std::array<int, 2> window_size = {1280, 800};
 
-    bool frozen = false;     // draw the clusters of one picture as boxes
-    int box_lights = 1;      // least lights of a frozen cluster that is drawn
-    bool error_map = false;  // show the measured error in place of the picture
-    int light = -1;          // the selected one of the scene's own, by number; -1: none
-    bool outlines = false;   // draw those of all of the scene's own lights with a size
+    bool frozen = false;          // draw the clusters of one picture as boxes
+    int box_lights = 1;           // least lights of a frozen cluster that is drawn
+    bool error_map = false;       // show the measured error in place of the picture
+    int light = -1;               // the selected one of the scene's own, by number; -1: none
+    glm::vec3 light_color{1.0f};  // its colour, the brightest channel 1: kept while it is dark
+    bool outlines = false;        // draw those of all of the scene's own lights with a size
 
     bool operator==(const ViewState&) const = default;
 };

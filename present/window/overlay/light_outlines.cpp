@@ -83,8 +83,8 @@ std::vector<glm::dvec3> outline_of(const SceneLight& light, const Camera& camera
         case SHAPE_SPHERE:
             return silhouette(light, camera);
         case SHAPE_TRIANGLE: {
-            const glm::dvec3 first = p - (x + y) / 3.0;
-            return {first, first + x, first + y};
+            const auto corners = corners_of(p, {x, y});
+            return {corners.begin(), corners.end()};
         }
         default:
             return {};

@@ -83,6 +83,7 @@ void PanelLights::own_lights(const CameraRig& rig) const {
 void PanelLights::select(const CameraRig& rig) const {
     const std::vector<SceneLight>& lights = facts.own_lights.lights();
     const int last = static_cast<int>(lights.size()) - 1;
+    const int before = state.light;
     state.light = std::min(state.light, last);
     ui.slider("Number", state.light,
               {-1.0, static_cast<double>(last), false, state.light < 0 ? "none" : "%.0f"});
@@ -95,6 +96,7 @@ void PanelLights::select(const CameraRig& rig) const {
     if (ui.button("Next")) state.light = state.light == last ? 0 : state.light + 1;
     ImGui::SameLine();
     if (ui.button("None")) state.light = -1;
+    if (state.light != before) state.light_color = glm::vec3(1.0f);
     ui.checkbox("Outlines", state.outlines);
     ui.tip(fmt::format("Of all lights with a size, the nearest {} at most", kMostOutlines).c_str());
 }
@@ -111,15 +113,17 @@ void PanelLights::change(std::size_t number) const {
 
 bool PanelLights::change_color(SceneLight& light) const {
     const float strength = brightest(light.intensity);
-    glm::vec3 color = strength > 0.0f ? light.intensity / strength : glm::vec3(1.0f);
+    if (strength > 0.0f) state.light_color = light.intensity / strength;
+    glm::vec3 color = state.light_color;
     float next = strength;
     const bool colored = ui.color("Colour", color) && brightest(color) > 0.0f;
+    if (colored) state.light_color = color / brightest(color);
     const bool is_placed = kind_of(light).is_placed;
     const bool dimmed =
         ui.drag("Intensity", next,
                 {0.0, kMost, step_of(double{strength}), is_placed ? "%.4g cd" : "%.4g lx"});
     ui.tip(is_placed ? "Straight ahead, the brightest channel" : "The brightest channel");
-    if (colored || dimmed) light.intensity = next / brightest(color) * color;
+    if (colored || dimmed) light.intensity = next * state.light_color;
     if (is_area_light(light)) {
         const double luminance = double{brightest(light.intensity)} / seen_area(light);
         fact_line("Luminance", fmt::format("{:.4g} nit", luminance));

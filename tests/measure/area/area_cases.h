@@ -32,9 +32,9 @@ inline AreaShape stored(AreaShape s) {
 }
 
 // As kernels integrate spheres.
-inline FV sphere_light_cosine(FV3 center, FV radius) {
+inline FV sphere_irradiance(FV3 center, FV radius) {
     const FlatLight disk = sphere_disk(center, radius);
-    return facing_disk_cosine(disk.center, disk.half_x);
+    return facing_disk_irradiance(disk.center, disk.half_x);
 }
 
 /// The shared text's value.
@@ -42,15 +42,15 @@ inline double shared_cosine(const AreaShape& s) {
     const FV3 center = float3_of(s.center), x = float3_of(s.half_x), y = float3_of(s.half_y);
     switch (s.kind) {
         case AreaKind::rectangle:
-            return parallelogram_cosine(center, x, y, false);
+            return parallelogram_irradiance(center, x, y, false);
         case AreaKind::triangle:
-            return triangle_cosine(center, x, y, false);
+            return triangle_irradiance(center, x, y, false);
         case AreaKind::disk:
-            return disk_cosine(center, x, y, false);
+            return disk_irradiance(center, x, y, false);
         case AreaKind::sphere:
             break;
     }
-    return sphere_light_cosine(center, static_cast<float>(s.radius));
+    return sphere_irradiance(center, static_cast<float>(s.radius));
 }
 
 inline std::ostream& operator<<(std::ostream& out, const AreaShape& s) {

@@ -139,9 +139,9 @@ TEST(AreaCosineSides, NothingBehindBelowOrInside) {
             EXPECT_LT(shared_cosine(flat(kind, {0, d, 0}, {0, 0, 1}, {1, 0, 0})),
                       shared_cosine(flat(kind, {0, d, 0}, {1, 0, 0}, {0, 0, 1})) * 1e-5 + 1e-9);
         }
-    EXPECT_EQ(sphere_light_cosine(fv3(0.5f, 0, 0), 1.0f), 0.0f);
-    EXPECT_EQ(sphere_light_cosine(fv3(0, 0, 1.0f), 1.0f), 0.0f);
-    EXPECT_EQ(sphere_light_cosine(fv3(0, 0, -1.5f), 1.0f), 0.0f);
+    EXPECT_EQ(sphere_irradiance(fv3(0.5f, 0, 0), 1.0f), 0.0f);
+    EXPECT_EQ(sphere_irradiance(fv3(0, 0, 1.0f), 1.0f), 0.0f);
+    EXPECT_EQ(sphere_irradiance(fv3(0, 0, -1.5f), 1.0f), 0.0f);
 }
 
 TEST(AreaCosineSides, ADiskFillsASpheresSolidAngle) {
@@ -150,8 +150,8 @@ TEST(AreaCosineSides, ADiskFillsASpheresSolidAngle) {
         const double distance = 1.0 + random.log_uniform(1e-3, 1e4);
         const FV3 center = float3_of(random.direction() * distance);
         const FlatLight disk = sphere_disk(center, 1.0f);
-        EXPECT_NEAR(disk_cosine(disk.center, disk.half_x, disk.half_y, false),
-                    facing_disk_cosine(disk.center, disk.half_x), 2e-4 / (distance * distance))
+        EXPECT_NEAR(disk_irradiance(disk.center, disk.half_x, disk.half_y, false),
+                    facing_disk_irradiance(disk.center, disk.half_x), 2e-4 / (distance * distance))
             << distance << ' ' << center.x << ' ' << center.y << ' ' << center.z;
     }
 }

@@ -113,7 +113,7 @@ TEST(GgxArea, HalfSidesOfTrianglesHaveTheirVariances) {
         }
     }
     const FlatLight light =
-        with_half_sides({SHAPE_TRIANGLE, {as_fv3({0, 0, 2}), as_fv3(x), as_fv3(y)}});
+        equal_variance_parallelogram({SHAPE_TRIANGLE, {as_fv3({0, 0, 2}), as_fv3(x), as_fv3(y)}});
     const glm::dvec3 half_x(light.half_x.x, light.half_x.y, light.half_x.z);
     const glm::dvec3 half_y(light.half_y.x, light.half_y.y, light.half_y.z);
     for (int i = 0; i < 3; ++i) {
@@ -180,7 +180,7 @@ TEST(GgxArea, SmallLightsArePoints) {
             const glm::dvec3 middle = random_direction(lobe, 0.0, i, random);
             if (middle.z < 0.05) continue;
             const AreaShape shape = random_light(AreaKind::rectangle, middle, size, random);
-            const double angle = light_cosine(seen(shape), false) / middle.z;
+            const double angle = area_irradiance(seen(shape), false) / middle.z;
             const glm::dvec2 light = shared_integral(lobe, shape);
             const double expected = lobe.value(middle) * angle;
             EXPECT_NEAR(light.x, expected, 1e-3 * expected) << name_of(lobe) << ' ' << i;

@@ -28,7 +28,7 @@ uint kind_of(AreaKind kind) {
     return kKinds[static_cast<std::size_t>(kind)];
 }
 
-SeenShape seen(const Case& of) {
+SampledShape seen(const Case& of) {
     const bool is_sphere = of.shape.kind == AreaKind::sphere;
     return see_shape(kind_of(of.shape.kind), lanes_of(of.shape.center),
                      lanes_of(is_sphere ? glm::dvec3(of.shape.radius, 0, 0) : of.shape.half_x),
@@ -81,7 +81,7 @@ TEST(SampleShape, KeepsADensityOfTheCosine) {
         for (const double distance : {1.2, 3.0, 100.0}) {
             for (int i = 0; i < 8; ++i) {
                 const Case c = random_case(random, kind, distance);
-                const SeenShape s = seen(c);
+                const SampledShape s = seen(c);
                 const glm::dvec3 center = glm::normalize(c.shape.center);
                 const glm::dvec3 across = glm::normalize(glm::cross(center, c.shape.half_x));
                 const double solid =
@@ -122,7 +122,7 @@ TEST(SampleShape, IsEvenInSolidAngle) {
     const auto below_one = [&] { return std::min(unit(random), 0x1.fffffep-1f); };
     for (const AreaKind kind : {AreaKind::rectangle, AreaKind::sphere, AreaKind::triangle}) {
         const Case c = random_case(random, kind, 1.3);
-        const SeenShape s = seen(c);
+        const SampledShape s = seen(c);
         const glm::dvec3 middle = glm::normalize(c.shape.center);
         const glm::dvec3 x = glm::normalize(glm::cross(middle, glm::dvec3(0.3, 0.5, 0.8)));
         const glm::dvec3 y = glm::cross(middle, x);
@@ -196,7 +196,7 @@ TEST(SampleShape, OfWhatIsNotSeenKeepsNothing) {
     below.shape.half_x = {1.0, 0.0, 0.0};
     below.shape.half_y = {0.0, 0.0, 1.0};
     below.normal = {0.0, 1.0, 0.0};
-    const SeenShape s = seen(below);
+    const SampledShape s = seen(below);
     EXPECT_EQ(mean_of(20, [&](float u, float v) { return double{sample_shape(s, u, v).share}; }),
               0.0);
 }

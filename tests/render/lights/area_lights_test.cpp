@@ -8,6 +8,7 @@
 #include "host/measure/metrics/metrics.h"
 #include "host/measure/reference/decoded_samples.h"
 #include "host/scene/lights/light_kinds.h"
+#include "tests/render/shadows/soft_scenes.h"
 #include "tests/support/render_fixture.h"
 
 namespace kilolux {
@@ -18,12 +19,10 @@ namespace {
 Scene scene_with_areas() {
     Scene scene = grid_with_every_light();
     const Box box = bounds(scene);
-    constexpr LightType kKinds[] = {LightType::rectangle, LightType::disk, LightType::sphere,
-                                    LightType::triangle};
     for (std::size_t i = 0; i < 24; ++i) {
         SceneLight light;
         const double t = (static_cast<double>(i) + 0.5) / 24.0;
-        light.type = kKinds[i % 4];
+        light.type = kSizedTypes[i % kSizedTypes.size()];
         light.position = {box.min.x + t * box.size().x, box.max.y + 0.2 + 0.8 * t,
                           box.min.z + std::fmod(7.0 * t, 1.0) * box.size().z};
         light.direction = glm::normalize(glm::dvec3(0.5 - t, i % 5 == 4 ? 0.3 : -1.0, 0.3 * t));

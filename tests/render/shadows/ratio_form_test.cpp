@@ -119,10 +119,8 @@ Forms forms_of(const ShadowScenario& scenario, RenderSettings settings, int pict
 ShadowScenario columns_by(int lights) {
     ShadowScenario out = columns_scenario();
     out.scene.lights.clear();
-    const LightType types[] = {LightType::rectangle, LightType::disk, LightType::sphere,
-                               LightType::triangle};
     for (int i = 0; i < lights; ++i) {
-        SceneLight light = panel(types[i % 4]);
+        SceneLight light = panel(kSizedTypes[static_cast<std::size_t>(i) % kSizedTypes.size()]);
         light.position = {14.0 * (i + 0.5) / lights - 7.0, 3.0 + 0.3 * (i % 3), i % 5 - 4.5};
         light.intensity *= 1.0f + 0.5f * static_cast<float>(i % 3);
         out.scene.lights.push_back(light);

@@ -19,8 +19,7 @@ double difference(const std::vector<float>& picture, const RgbImage& exact) {
 }
 
 TEST(SoftReference, IsTheMeanOfSampledShadows) {
-    for (const LightType type :
-         {LightType::rectangle, LightType::disk, LightType::sphere, LightType::triangle}) {
+    for (const LightType type : kSizedTypes) {
         const ShadowScenario scenario = board_below(panel(type));
         RenderSettings settings = soft_settings(32, 18, 256);
         settings.gbuffer = GBUFFER_FULL;

@@ -1,10 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <array>
+
 #include "host/certify/shadow_scenarios.h"
+#include "host/scene/lights/light_kinds.h"
 #include "tests/support/render_fixture.h"
 
 namespace kilolux {
+
+/// The kinds of lights with a size.
+inline constexpr auto kSizedTypes = [] {
+    constexpr auto is_sized = [](const LightKind& kind) { return kind.shape != SHAPE_POINT; };
+    std::array<LightType, std::ranges::count_if(kLightKinds, is_sized)> out{};
+    std::size_t count = 0;
+    for (const LightKind& kind : kLightKinds) {
+        if (is_sized(kind)) out[count++] = kind.type;
+    }
+    return out;
+}();
 
 /// A light with a size above the floor of board_below(), of a kind that has one.
 inline SceneLight panel(LightType type) {

@@ -14,14 +14,12 @@ namespace {
 Scene grid_with_area_lights() {
     Scene scene = grid_with_every_light();
     const Box box = bounds(scene);
-    int i = 0;
-    for (const LightType type : {LightType::rectangle, LightType::disk, LightType::sphere,
-                                 LightType::triangle, LightType::rectangle}) {
-        SceneLight light = panel(type);
-        const double t = (i++ + 0.5) / 5.0;
+    for (std::size_t i = 0; i < 5; ++i) {
+        SceneLight light = panel(kSizedTypes[i % kSizedTypes.size()]);
+        const double t = (static_cast<double>(i) + 0.5) / 5.0;
         light.position = {box.min.x + t * box.size().x, box.max.y + 0.3,
                           box.min.z + (1.0 - t) * box.size().z};
-        light.two_sided = i == 5;
+        light.two_sided = i == 4;
         light.intensity = {60.0f, 40.0f, 50.0f};
         light.range = 3.0f * static_cast<float>(glm::length(box.size()));
         scene.lights.push_back(light);

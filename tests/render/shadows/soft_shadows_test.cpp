@@ -2,7 +2,6 @@
 // Sampled shadows of lights with a size, against a quadrature in double.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <vector>
@@ -15,9 +14,6 @@
 
 namespace kilolux {
 namespace {
-
-constexpr std::array kSizedTypes = {LightType::rectangle, LightType::disk, LightType::sphere,
-                                    LightType::triangle};
 
 // Whole light has no noise at all, and a full shadow is black but for the rounding of the
 // difference from the unshadowed light.

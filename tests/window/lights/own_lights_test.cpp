@@ -164,6 +164,29 @@ TEST(OwnLights, AreThoseOfTheSceneWhereItRefusesChanges) {
     EXPECT_FALSE(own.has_news());
 }
 
+// The user asks for another size of points while a change of another light is on its way.
+TEST(OwnLights, PointsHaveTheScenesSizeWhereItRefusesEarlierChanges) {
+    OwnLights own(one_of_each(), 0.0);
+    own.set_point_size(0.125);
+    own.begin_sending();
+    own.end_sending(true);
+    const std::vector<SceneLight> of_scene = own.lights();
+    SceneLight wider = of_scene[4];
+    wider.width = 0.75f;
+    EXPECT_TRUE(own.change(4, wider));
+    EXPECT_EQ(own.begin_sending().size(), 1u);
+    own.set_point_size(0.25);
+    own.end_sending(false);
+    EXPECT_EQ(own.point_size(), 0.125);
+    EXPECT_EQ(own.lights(), of_scene);
+    for (const NumberedLight& sent : own.begin_sending()) {
+        EXPECT_EQ(sent.light, of_scene[sent.number]) << sent.number;
+    }
+    own.end_sending(true);
+    own.set_point_size(0.25);
+    EXPECT_EQ(own.lights()[0].radius, 0.25f) << "it can be asked for again";
+}
+
 TEST(OwnLights, PointsGetTheSizeThatIsAskedForAndNoOthers) {
     std::vector<SceneLight> lights = one_of_each();
     lights.push_back(light_of(LightType::point));

@@ -207,6 +207,19 @@ TEST_F(LightsOfTheWindow, KeptSettingsThatExcludeThemWait) {
     opens(R"("light-size": 0.1)", {"--lights", "10", "--shadows", "exact"});
 }
 
+TEST_F(LightsOfTheWindow, KeepTheirColourWhileTheyAreDark) {
+    Scene scene = lit_room(false);
+    scene.lights[0].intensity = {1.5f, 0.75f, 0.375f};
+    write_scene(scene, room_);
+    Script script(folder_);
+    script.line("open scene lights").line("type light number 0").line("away").shot("before");
+    script.line("type light intensity 0").line("away").shot("dark");
+    script.line("type light intensity 1.5").line("away").shot("after");
+    play_with(script);
+    EXPECT_GT(difference("before", "dark"), 0.0);
+    EXPECT_EQ(difference("before", "after"), 0.0);
+}
+
 TEST_F(LightsOfTheWindow, HaveOutlines) {
     Script script(folder_);
     script.shot("none").line("open scene lights").line("click light outlines").line("away");

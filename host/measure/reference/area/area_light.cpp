@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "host/scene/lights/light_shape.h"
+
 namespace kilolux {
 namespace {
 
@@ -129,7 +131,7 @@ class Integrator {
         const dvec3 middle =
             patch.point(std::midpoint(cell.u0, cell.u1), std::midpoint(cell.v0, cell.v1));
         if (std::max(sides[0], sides[1]) > kLargestCell * glm::length(middle)) {
-            // A point in the light's plane has cells without end.
+            // If the surface point lies in the light's plane, splitting would never stop.
             if (std::max(cell.u1 - cell.u0, cell.v1 - cell.v0) < 1e-12) return;
             split(cell, true);
             split(cell, false);
@@ -232,8 +234,8 @@ std::vector<Patch> polygon_patches(const AreaShape& shape, const std::optional<d
     const dvec3 &c = shape.center, &x = shape.half_x, &y = shape.half_y;
     std::vector<dvec3> corners{c - x - y, c + x - y, c + x + y, c - x + y};
     if (shape.kind == AreaKind::triangle) {
-        const dvec3 first = c - (x + y) / 3.0;
-        corners = {first, first + x, first + y};
+        const auto of_triangle = corners_of(c, {x, y});
+        corners.assign(of_triangle.begin(), of_triangle.end());
     }
     if (normal) corners = cut_corners(corners, *normal);
     std::vector<Patch> patches;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/scene/lights/light_shape.h"
+
 namespace kilolux {
 namespace {
 
@@ -36,7 +38,7 @@ dvec3 flat_point(const AreaShape& shape, double u, double v) {
     }
     if (shape.kind == AreaKind::triangle) {
         const double s = std::sqrt(u);
-        return shape.center - (x + y) / 3.0 + s * (1.0 - v) * x + s * v * y;
+        return corners_of(shape.center, {x, y})[0] + s * (1.0 - v) * x + s * v * y;
     }
     return shape.center + (2 * u - 1) * x + (2 * v - 1) * y;
 }

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "host/scene/gltf/parallel.h"
@@ -59,8 +58,9 @@ std::string text_of(const GlowCounts& counts) {
     std::string out = fmt::format(
         "{} triangles of {} glowing meshes are {} lights, {} of them rectangles", counts.triangles,
         counts.meshes, counts.triangles - counts.rectangles, counts.rectangles);
-    if (counts.without_area > 0) {
-        out += fmt::format("; {} triangles without an area are none", counts.without_area);
+    if (counts.left_out > 0) {
+        out += fmt::format("; {} triangles are left out: no area, or values out of range",
+                           counts.left_out);
     }
     if (counts.varied > 0) {
         out += fmt::format(
@@ -151,7 +151,7 @@ std::vector<SceneLight> GlowingSurfaces::lights(const GlowingParts& parts) {
         const TriangleLights& of = made[i];
         counts.triangles += of.triangles;
         counts.rectangles += of.rectangles;
-        counts.without_area += of.without_area;
+        counts.left_out += of.left_out;
         counts.varied += of.varied;
         squares += of.squares;
         area += of.varied_area;

@@ -13,7 +13,8 @@
 
 namespace kilolux {
 
-/// Whether emissive surfaces are lights. `automatic`: where the scene has no other light.
+/// Whether emissive surfaces are lights. `automatic`: where the file has no other light, none is
+/// generated, there is no environment map, and shading and shadows take lights with a size.
 enum class EmissiveLights { automatic, on, off };
 
 /// The parts of a scene whose emissive surfaces become lights.
@@ -33,8 +34,8 @@ struct GlowCounts {
     std::size_t meshes = 0;
     std::size_t triangles = 0;   // that are lights, alone or in a rectangle
     std::size_t rectangles = 0;  // of two triangles each
-    std::size_t without_area = 0;
-    std::size_t varied = 0;  // triangles whose emission varies
+    std::size_t left_out = 0;    // triangles
+    std::size_t varied = 0;      // triangles whose emission varies
     // Of their emission, root mean square over area, relative to each triangle's mean.
     double deviation = 0.0;
 };

@@ -162,7 +162,7 @@ TriangleLights make_triangle_lights(const GlowingInstance& of) {
         }
         const std::optional<SceneLight> light = light_of(of, t);
         if (!light) {
-            ++out.without_area;
+            ++out.left_out;
             continue;
         }
         ++out.triangles;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
@@ -21,7 +20,7 @@ struct GlowingInstance {
 /// The lights of an instance, and what they stand for.
 struct TriangleLights {
     std::vector<SceneLight> lights;
-    std::size_t triangles = 0, rectangles = 0, without_area = 0, varied = 0;
+    std::size_t triangles = 0, rectangles = 0, left_out = 0, varied = 0;
     // Over triangles whose emission varies: relative variance times area, and area [m^2].
     double squares = 0.0, varied_area = 0.0;
 };

@@ -28,7 +28,8 @@ inline constexpr std::size_t kMostEmissionPoints = 65536;
 /// is 0 or 1 with alphaMode MASK and alpha with BLEND. Maps are read as the renderer reads them,
 /// but at their finest level, at a random point in each cell of an even grid, so that no pattern of
 /// the map can hide from it: along each side at least 32 points and eight a texel, or fewer where
-/// these would be more than `most_points`. An edge through the triangle errs by 0.3 % of 32 x 32.
+/// these would be more than `most_points`. For a straight edge through the triangle the mean errs
+/// by 0.3 % with 32 x 32 points.
 MeanEmission mean_emission(const Scene& scene, const Mesh& mesh, const Material& material,
                            std::size_t number, std::size_t most_points = kMostEmissionPoints);
 

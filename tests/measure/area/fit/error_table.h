@@ -49,7 +49,7 @@ inline CellErrors cell_errors(AreaKind kind, const RoundLobe& lobe, double size,
         const auto reflected = [](glm::dvec2 light) { return 0.04 * light.x + 0.96 * light.y; };
         const double expected = reflected(lobe_integral(lobe, shape));
         const double error = std::abs(reflected(shared_integral(lobe, shape)) - expected);
-        const double lambert = light_cosine(seen(shape), false) * even;
+        const double lambert = area_irradiance(seen(shape), false) * even;
         errors.of_itself.add(error / expected, kTableLights);
         errors.of_even.add(error / (expected + lambert), kTableLights);
     }

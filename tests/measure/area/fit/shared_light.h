@@ -10,9 +10,9 @@ inline FV3 as_fv3(const glm::dvec3& v) {
     return fv3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
 }
 
-inline SeenLight seen(const AreaShape& shape) {
-    SeenLight light{SHAPE_RECTANGLE,
-                    {as_fv3(shape.center), as_fv3(shape.half_x), as_fv3(shape.half_y)}};
+inline FramedLight seen(const AreaShape& shape) {
+    FramedLight light{SHAPE_RECTANGLE,
+                      {as_fv3(shape.center), as_fv3(shape.half_x), as_fv3(shape.half_y)}};
     if (shape.kind == AreaKind::triangle) light.kind = SHAPE_TRIANGLE;
     if (shape.kind == AreaKind::disk) light.kind = SHAPE_DISK;
     if (shape.kind == AreaKind::sphere) {
