@@ -32,15 +32,23 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-std::string result_file(const std::string&, const std::string& text) {
-    const std::string extension = lower(fs::path(text).extension().string());
-    if (extension == ".csv" || extension == ".json") return text;
-    throw UsageError(
-        fmt::format("--output: '{}': result type '{}' is none of .csv, .json", text, extension));
+enum class ResultFormat { csv, json };
+
+ResultFormat result_format(const fs::path& file) {
+    const std::string extension = lower(file.extension().string());
+    if (extension == ".csv") return ResultFormat::csv;
+    if (extension == ".json") return ResultFormat::json;
+    throw UsageError(fmt::format("--output: '{}': result type '{}' is none of .csv, .json",
+                                 file.string(), extension));
 }
 
-// What would not be in the result, and what would be in it unasked.
-void check_photometry(PhotometryOptions& options) {
+std::string result_file(const std::string&, const std::string& text) {
+    result_format(text);
+    return text;
+}
+
+// Refuses options that photometry ignores. Turns the automatic rig off where the scene has lights.
+void settle_options(PhotometryOptions& options) {
     SharedOptions& shared = options.shared;
     refuse_if(options.points.empty() == (options.plane.columns == 0),
               "photometry: needs one of --points FILE.csv and --plane");
@@ -147,9 +155,17 @@ Illuminances measured(const PhotometryOptions& options, std::vector<MeasuringPoi
     return out;
 }
 
+void write_result(const fs::path& file, const Illuminances& result, const Scene& scene) {
+    if (result_format(file) == ResultFormat::json) {
+        write_json(file.string(), illuminance_json(result, scene));
+    } else {
+        write_atomically(file, to_csv(illuminance_table(result, scene)));
+    }
+}
+
 void run_photometry(PhotometryOptions& options) {
     begin_command(options.shared);
-    check_photometry(options);
+    settle_options(options);
     if (!options.output.empty()) check_can_write(options.output);
     std::vector<MeasuringPoint> points =
         options.points.empty() ? points_of(options.plane) : read_points(options.points);
@@ -160,11 +176,7 @@ void run_photometry(PhotometryOptions& options) {
         throw Error(options.shared.scene + ": has no lights to measure; --lights N adds some");
     }
     const Illuminances result = measured(options, std::move(points), scene, environment);
-    if (options.output.extension() == ".json") {
-        write_json(options.output.string(), illuminance_json(result, scene));
-    } else if (!options.output.empty()) {
-        write_atomically(options.output, to_csv(illuminance_table(result, scene)));
-    }
+    if (!options.output.empty()) write_result(options.output, result, scene);
     const auto document = options.json ? illuminance_json(result, scene) : nlohmann::ordered_json();
     print_result(options.json, document, illuminance_text(result, scene));
     if (!options.output.empty()) note("wrote   " + options.output.string());

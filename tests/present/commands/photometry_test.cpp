@@ -85,6 +85,12 @@ TEST_F(PhotometryCommand, WritesAPlaneAsCsv) {
     EXPECT_EQ(table.rows[4][10], "0 point");
 }
 
+TEST_F(PhotometryCommand, CapitalsNameTheResultsTypeToo) {
+    const auto file = folder_ / "lux.JSON";
+    ASSERT_EQ(run({"--plane=0,0,1,1,0,1,1", "-o", file.string()}).code, 0);
+    EXPECT_EQ(Json::parse(text_of_file(file)).at("points").size(), 1u);
+}
+
 TEST_F(PhotometryCommand, CountsTheEnvironmentApart) {
     const std::string file = points("0,0,0,0,1,0\n");
     const ChildResult result = run({"--points", file, "--json", "--environment", "sky"});
