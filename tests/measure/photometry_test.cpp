@@ -300,6 +300,34 @@ TEST(Photometry, TheBoundOfALightAheadIsExact) {
     }
 }
 
+TEST(Photometry, ALightAtThePointLosesNothing) {
+    Scene scene = scene_of({point_light({0, 2, 0}, 100.0f)});
+    scene.lights[0].range = 5.0f;
+    const std::vector<MeasuringPoint> point = {{{0, 2, 0}, {0, 1, 0}}};
+    EXPECT_EQ(cut_off_bounds(scene, point, order_in_groups(point))[0], 0.0);
+}
+
+// From under the end of a tube on, points of one group: what its range takes away is largest at the
+// nearest ones, since the tube is wide for them.
+TEST(Photometry, WhatTheRangeOfATubeCutsOffIsBounded) {
+    SceneLight tube = point_light({0, 2, 0}, 1000.0f);
+    tube.type = LightType::rectangle;
+    tube.direction = {0, -1, 0};
+    tube.side = {1, 0, 0};
+    tube.width = 1.2f;
+    tube.height = 0.01f;
+    tube.range = 5.0f;
+    const Scene scene = scene_of({tube});
+    std::vector<MeasuringPoint> points;
+    for (int i = 0; i < 60; ++i) points.push_back({{0.6 + 0.01 * i, 1.99, 0}, {0, 1, 0}});
+    const std::vector<double> bounds = cut_off_bounds(scene, points, order_in_groups(points));
+    const ExactLighting exact(scene);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        EXPECT_LE(exact.at(points[i]).cut_off, bounds[i]) << i;
+    }
+    EXPECT_LE(bounds[0], 100.0);
+}
+
 TEST(Photometry, TheLargestContributorsComeFirst) {
     const Scene scene = scene_of({point_light({0, 4, 0}, 100.0f), point_light({0, 1, 0}, 10.0f),
                                   point_light({0, -1, 0}, 999.0f), point_light({0, 2, 0}, 100.0f),
