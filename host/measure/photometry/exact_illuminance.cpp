@@ -96,13 +96,13 @@ ExactLighting::ExactLighting(const Scene& scene)
 
 ExactIlluminance ExactLighting::at(const MeasuringPoint& point) const {
     ExactIlluminance out;
-    CompensatedSum lux, cut_off;
+    CompensatedSum lux, range_loss;
     ReferenceOptions unbounded = options_;
     unbounded.windowed = false;
     const auto add = [&](std::size_t light, double whole, double window) {
         if (whole == 0.0) return;
         lux.add(whole * window);
-        cut_off.add(whole * (1.0 - window));
+        range_loss.add(whole * (1.0 - window));
         keep_largest(out.largest, {light, whole * window});
     };
     for (std::size_t i = 0; i < lights_.directional.size(); ++i) {
@@ -116,7 +116,7 @@ ExactIlluminance ExactLighting::at(const MeasuringPoint& point) const {
         add(placed_[i], unbounded_lux(light, point, unbounded), window);
     }
     out.lux = lux.value();
-    out.cut_off = cut_off.value();
+    out.range_loss = range_loss.value();
     return out;
 }
 
@@ -146,7 +146,7 @@ std::vector<ExactIlluminance> exact_illuminance(const ExactLighting& lighting,
     return out;
 }
 
-std::vector<double> cut_off_bounds(const Scene& scene, std::span<const MeasuringPoint> points,
+std::vector<double> range_loss_bounds(const Scene& scene, std::span<const MeasuringPoint> points,
                                    std::span<const std::uint32_t> order) {
     std::vector<double> out(points.size(), 0.0);
     const std::vector<BoundedLight> lights = bounded_lights(scene);

@@ -59,9 +59,9 @@ Camera camera_around(const Box& box) {
 }
 
 // The planes of a frame's points: point i is pixel i of the tiles one after the other.
-class PointPlanes {
+class PointGBuffer {
  public:
-    PointPlanes(const View& view, const KernelFeatures& features)
+    PointGBuffer(const View& view, const KernelFeatures& features)
         : view_(view),
           layout_(full_gbuffer_layout(features, view.stride, view.height)),
           bytes_(gbuffer_bytes(layout_, view.stride, view.height)) {}
@@ -132,7 +132,7 @@ void PointLighting::light_frame(std::span<const MeasuringPoint> points,
     const uint down = (tiles + across - 1) / across;
     const View view =
         view_of(camera, static_cast<int>(across * FINE_TILE), static_cast<int>(down * FINE_TILE));
-    PointPlanes planes(view, features_);
+    PointGBuffer planes(view, features_);
     for (std::size_t i = 0; i < frame.size(); ++i) {
         planes.put(i, points[frame[i]], camera.position);
     }

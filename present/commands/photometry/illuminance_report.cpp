@@ -65,7 +65,7 @@ KernelErrors errors_of(const Illuminances& result) {
     KernelErrors out;
     for (std::size_t k = 0; k < result.exact.size(); ++k) {
         const double exact = result.exact[k].lux;
-        const double found = result.kernels[result.exact_places[k]];
+        const double found = result.kernels[result.float64_indices[k]];
         out.lux = std::max(out.lux, std::abs(found - exact));
         out.edge_cases += (found > 0.0) != (exact > 0.0);
         if (found > 0.0 && exact > 0.0) {
@@ -88,7 +88,7 @@ LuxJson summary_json(const Illuminances& result, const Scene& scene) {
                 {"mean_lx", lux.mean},
                 {"maximum_lx", lux.most},
                 {"uniformity", lux.uniformity()},
-                {"cut_off_by_ranges_at_most_lx", largest_of(result.cut_off)},
+                {"cut_off_by_ranges_at_most_lx", largest_of(result.range_loss)},
                 {"ambient_apart_lx", result.ambient},
                 {"environment_apart_at_most_lx", largest_of(result.environment)}};
     out["float64"] = {{"points", result.exact.size()},
@@ -116,7 +116,7 @@ std::vector<Cell> table_row(const Illuminances& result, const Scene& scene, std:
     const glm::dvec3 &p = point.position, &n = point.normal;
     std::vector<Cell> row = {p.x, p.y, p.z, n.x, n.y, n.z, lux_of(result, i), result.kernels[i]};
     row.push_back(kernel_error(result, i));
-    row.push_back(result.cut_off[i]);
+    row.push_back(result.range_loss[i]);
     if (!result.environment.empty()) row.push_back(result.environment[i]);
     add_contributors(row, result.exact_of(i), scene);
     return row;
@@ -142,7 +142,7 @@ LuxJson point_json(const Illuminances& result, const Scene& scene, std::size_t i
                 {"normal", {n.x, n.y, n.z}},
                 {"illuminance_lx", lux_of(result, i)},
                 {"kernels_lx", result.kernels[i]},
-                {"cut_off_at_most_lx", result.cut_off[i]}};
+                {"cut_off_at_most_lx", result.range_loss[i]}};
     if (!result.environment.empty()) out["environment_lx"] = result.environment[i];
     const ExactIlluminance* exact = result.exact_of(i);
     out["float64_lx"] = exact != nullptr ? LuxJson(exact->lux) : LuxJson();
@@ -159,9 +159,9 @@ LuxJson point_json(const Illuminances& result, const Scene& scene, std::size_t i
 }  // namespace
 
 const ExactIlluminance* Illuminances::exact_of(std::size_t i) const {
-    const auto found = std::lower_bound(exact_places.begin(), exact_places.end(), i);
-    if (found == exact_places.end() || *found != i) return nullptr;
-    return &exact[static_cast<std::size_t>(found - exact_places.begin())];
+    const auto found = std::lower_bound(float64_indices.begin(), float64_indices.end(), i);
+    if (found == float64_indices.end() || *found != i) return nullptr;
+    return &exact[static_cast<std::size_t>(found - float64_indices.begin())];
 }
 
 Table illuminance_table(const Illuminances& result, const Scene& scene) {
@@ -191,7 +191,7 @@ std::string illuminance_text(const Illuminances& result, const Scene& scene) {
         out += fmt::format("; {} lie on the edge of a cone or a range", errors.edge_cases);
     }
     out += fmt::format("\nranges      cut off at most {:.4g} lx at a point\n",
-                       largest_of(result.cut_off));
+                       largest_of(result.range_loss));
     if (result.ambient > 0.0) out += fmt::format("ambient     {:.6g} lx, apart\n", result.ambient);
     if (!result.environment.empty()) {
         out +=

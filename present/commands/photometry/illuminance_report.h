@@ -15,9 +15,9 @@ namespace kilolux {
 struct Illuminances {
     std::vector<MeasuringPoint> points;
     std::vector<double> kernels;            // of lights, by the float32 kernels
-    std::vector<std::size_t> exact_places;  // numbers of the points that float64 computed, rising
+    std::vector<std::size_t> float64_indices;  // numbers of the points that float64 computed, rising
     std::vector<ExactIlluminance> exact;    // of these
-    std::vector<double> cut_off;      // at most, by ranges; float64's value where there is one
+    std::vector<double> range_loss;      // at most, by ranges; float64's value where there is one
     std::vector<double> environment;  // apart; empty: there is none
     double ambient = 0.0;             // apart, the same for all points
 

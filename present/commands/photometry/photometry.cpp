@@ -114,7 +114,7 @@ std::vector<double> environment_lux(const SharedOptions& shared, const std::stri
 }
 
 // Numbers of the points that float64 computes, evenly among all.
-std::vector<std::size_t> exact_places(const PhotometryOptions& options, std::size_t points,
+std::vector<std::size_t> float64_indices(const PhotometryOptions& options, std::size_t points,
                                       double work) {
     constexpr double kAutomaticWork = 3e7;  // about a second on two cores
     const double automatic = std::max(1.0, kAutomaticWork / work);
@@ -139,15 +139,15 @@ Illuminances measured(const PhotometryOptions& options, std::vector<MeasuringPoi
     check_interrupt();
     start = std::chrono::steady_clock::now();
     const ExactLighting exact(scene);
-    out.exact_places = exact_places(options, out.points.size(), exact.work());
+    out.float64_indices = float64_indices(options, out.points.size(), exact.work());
     out.exact =
-        exact_illuminance(exact, out.points, out.exact_places, [](double) { check_interrupt(); });
+        exact_illuminance(exact, out.points, out.float64_indices, [](double) { check_interrupt(); });
     note(fmt::format("lit     {} points by {} in {:.2g} s, {} of them in float64 in {:.2g} s",
                      out.points.size(), kernels.device().name, kernel_s, out.exact.size(),
                      seconds_since(start)));
-    out.cut_off = cut_off_bounds(scene, out.points, order);
+    out.range_loss = range_loss_bounds(scene, out.points, order);
     for (std::size_t k = 0; k < out.exact.size(); ++k) {
-        out.cut_off[out.exact_places[k]] = out.exact[k].cut_off;
+        out.range_loss[out.float64_indices[k]] = out.exact[k].range_loss;
     }
     out.environment = environment_lux(shared, environment, out.points);
     // Radiance from everywhere arrives as pi times it.

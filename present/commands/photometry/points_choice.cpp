@@ -61,9 +61,9 @@ MeasuringPoint point_of_line(std::string_view line, const std::string& where) {
 
 }  // namespace
 
-PointPlane parse_plane(const std::string& option, std::string_view text) {
+MeasuringGrid parse_plane(const std::string& option, std::string_view text) {
     const std::vector<double> n = plane_numbers(option, text);
-    PointPlane out;
+    MeasuringGrid out;
     if (n.size() == 7) {
         if (!(n[0] < n[2] && n[1] < n[3])) {
             refuse_plane(option, text, "must have X0 < X1 and Z0 < Z1");
@@ -94,14 +94,14 @@ PointPlane parse_plane(const std::string& option, std::string_view text) {
     return out;
 }
 
-std::string text_of(const PointPlane& plane) {
+std::string text_of(const MeasuringGrid& plane) {
     if (plane.columns == 0) return "";
     const auto& [o, u, v, columns, rows] = plane;
     return fmt::format("{},{},{},{},{},{},{},{},{},{},{}", o.x, o.y, o.z, u.x, u.y, u.z, v.x, v.y,
                        v.z, columns, rows);
 }
 
-std::vector<MeasuringPoint> points_of(const PointPlane& plane) {
+std::vector<MeasuringPoint> points_of(const MeasuringGrid& plane) {
     std::vector<MeasuringPoint> out;
     out.reserve(plane.columns * plane.rows);
     // + 0: no component is -0.

@@ -122,8 +122,8 @@ TEST_F(PhotometryCommand, BadInputIsALine) {
     for (const auto& [text, why] : files) expect_refused({"--points", points(text)}, 1, why);
 }
 
-TEST(PointPlane, ReadsBackAsItsText) {
-    const PointPlane plane = parse_plane("--plane", "0,1,4,7,0.8,3,2");
+TEST(MeasuringGrid, ReadsBackAsItsText) {
+    const MeasuringGrid plane = parse_plane("--plane", "0,1,4,7,0.8,3,2");
     EXPECT_EQ(text_of(plane), "0,0.8,7,4,0,0,0,0,-6,3,2");
     EXPECT_EQ(parse_plane("--plane", text_of(plane)), plane);
     const std::vector<MeasuringPoint> points = points_of(plane);
