@@ -147,12 +147,13 @@ std::vector<ExactIlluminance> exact_illuminance(const ExactLighting& lighting,
 }
 
 std::vector<double> range_loss_bounds(const Scene& scene, std::span<const MeasuringPoint> points,
-                                   std::span<const std::uint32_t> order) {
+                                      std::span<const std::uint32_t> order,
+                                      const OnProgress& progress) {
     std::vector<double> out(points.size(), 0.0);
     const std::vector<BoundedLight> lights = bounded_lights(scene);
     if (lights.empty()) return out;
     const auto groups = static_cast<int>((order.size() + kGroupPoints - 1) / kGroupPoints);
-    parallel_rows(groups, [&](int group) {
+    const auto bound_group = [&](int group) {
         const std::size_t first = static_cast<std::size_t>(group) * kGroupPoints;
         const auto mine = order.subspan(first, std::min(kGroupPoints, order.size() - first));
         Box box;
@@ -162,7 +163,8 @@ std::vector<double> range_loss_bounds(const Scene& scene, std::span<const Measur
             sum += largest_loss(light, distances_to(box, light.position));
         }
         for (const std::uint32_t i : mine) out[i] = sum;
-    });
+    };
+    parallel_rows(groups, bound_group, progress);
     return out;
 }
 

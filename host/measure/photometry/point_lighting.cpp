@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "host/base/formats/gbuffer_layout.h"
+#include "host/base/system/interrupt.h"
 #include "host/measure/metrics/rgb_image.h"
 #include "host/render/plan/kernel_choice.h"
 #include "host/render/plan/scene_plan.h"
@@ -116,6 +117,7 @@ std::vector<double> PointLighting::illuminance(std::span<const MeasuringPoint> p
                                                std::span<const std::uint32_t> order) {
     std::vector<double> out(points.size(), 0.0);
     for (std::size_t first = 0; first < order.size(); first += kFramePoints) {
+        check_interrupt();
         light_frame(points, order.subspan(first, std::min(kFramePoints, order.size() - first)),
                     out);
     }

@@ -32,6 +32,9 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+// Of long work on all cores.
+void stop_if_interrupted(double) { check_interrupt(); }
+
 enum class ResultFormat { csv, json };
 
 ResultFormat result_format(const fs::path& file) {
@@ -103,13 +106,14 @@ std::vector<double> environment_lux(const SharedOptions& shared, const std::stri
                            static_cast<std::size_t>(shared.environment_lights));
     const ExactLighting lighting(around);
     std::vector<double> out(points.size());
-    parallel_rows(
-        static_cast<int>((points.size() + kGroupPoints - 1) / kGroupPoints), [&](int row) {
-            const std::size_t first = static_cast<std::size_t>(row) * kGroupPoints;
-            for (std::size_t i = first; i < std::min(first + kGroupPoints, points.size()); ++i) {
-                out[i] = lighting.at(points[i]).lux;
-            }
-        });
+    const auto light_group = [&](int group) {
+        const std::size_t first = static_cast<std::size_t>(group) * kGroupPoints;
+        for (std::size_t i = first; i < std::min(first + kGroupPoints, points.size()); ++i) {
+            out[i] = lighting.at(points[i]).lux;
+        }
+    };
+    parallel_rows(static_cast<int>((points.size() + kGroupPoints - 1) / kGroupPoints), light_group,
+                  stop_if_interrupted);
     return out;
 }
 
@@ -140,12 +144,11 @@ Illuminances measured(const PhotometryOptions& options, std::vector<MeasuringPoi
     start = std::chrono::steady_clock::now();
     const ExactLighting exact(scene);
     out.float64_indices = float64_indices(options, out.points.size(), exact.work());
-    out.exact =
-        exact_illuminance(exact, out.points, out.float64_indices, [](double) { check_interrupt(); });
+    out.exact = exact_illuminance(exact, out.points, out.float64_indices, stop_if_interrupted);
     note(fmt::format("lit     {} points by {} in {:.2g} s, {} of them in float64 in {:.2g} s",
                      out.points.size(), kernels.device().name, kernel_s, out.exact.size(),
                      seconds_since(start)));
-    out.range_loss = range_loss_bounds(scene, out.points, order);
+    out.range_loss = range_loss_bounds(scene, out.points, order, stop_if_interrupted);
     for (std::size_t k = 0; k < out.exact.size(); ++k) {
         out.range_loss[out.float64_indices[k]] = out.exact[k].range_loss;
     }
