@@ -9,6 +9,7 @@
 #include "host/measure/metrics/rgb_image.h"
 #include "host/render/plan/kernel_choice.h"
 #include "host/render/plan/scene_plan.h"
+#include "host/scene/lights/light_kinds.h"
 
 namespace kilolux {
 namespace {
@@ -31,15 +32,12 @@ RenderSettings light_settings(RenderSettings settings) {
     return settings;
 }
 
-// Those of the scene's lights alone.
+// Kernel features that lights need; materials are left out.
 KernelFeatures point_features(const Scene& scene, const RenderSettings& settings) {
     KernelFeatures out = make_scene_plan(scene, settings, scene.lights.size()).kernels;
     const SceneFeatures all = out;
     static_cast<SceneFeatures&>(out) = SceneFeatures();
-    out.point_lights = all.point_lights;
-    out.spot_lights = all.spot_lights;
-    out.directional_lights = all.directional_lights;
-    out.area_lights = all.area_lights;
+    for (const LightKind& kind : kLightKinds) out.*kind.feature = all.*kind.feature;
     out.light_profiles = all.light_profiles;
     out.wide_light_index = all.wide_light_index;
     out.light_d_min = all.light_d_min;
