@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "host/base/byte_order_mark.h"
 #include "host/base/error.h"
 #include "host/base/system/read_text.h"
 #include "host/base/text.h"
@@ -120,7 +121,7 @@ std::vector<MeasuringPoint> points_of(const MeasuringGrid& plane) {
 std::vector<MeasuringPoint> read_points(const std::filesystem::path& file) {
     const std::string text = read_text(file);
     std::vector<MeasuringPoint> out;
-    std::string_view left = text;
+    std::string_view left = without_byte_order_mark(text);
     bool is_first = true;
     for (std::size_t number = 1; !left.empty(); ++number) {
         const std::size_t end = std::min(left.find('\n'), left.size());

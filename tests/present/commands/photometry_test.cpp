@@ -85,6 +85,15 @@ TEST_F(PhotometryCommand, WritesAPlaneAsCsv) {
     EXPECT_EQ(table.rows[4][10], "0 point");
 }
 
+TEST_F(PhotometryCommand, AByteOrderMarkIsLeftOut) {
+    for (const char* names : {"", "x,y,z,nx,ny,nz\n"}) {
+        const std::string file = points(std::string("\xef\xbb\xbf") + names + "0,0,0,0,1,0\n");
+        const ChildResult result = run({"--points", file, "--json"});
+        ASSERT_EQ(result.code, 0) << result.err;
+        EXPECT_EQ(Json::parse(result.out).at("points").size(), 1u);
+    }
+}
+
 TEST_F(PhotometryCommand, CapitalsNameTheResultsTypeToo) {
     const auto file = folder_ / "lux.JSON";
     ASSERT_EQ(run({"--plane=0,0,1,1,0,1,1", "-o", file.string()}).code, 0);
