@@ -198,7 +198,7 @@ void visit_settings(PhotometryOptions& options, const SettingVisitor& f) {
         .input_file(
             {"--points", "FILE", "",
              "CSV with a point a line: x,y,z,nx,ny,nz, position in metres and the normal of "
-             "the surface that is lit; a first line of names is left out"},
+             "the surface that is lit; a first line of these names is left out"},
             options.points)
         .value({"--plane", "NUMBERS", "",
                 "X0,Z0,X1,Z1,Y,NX,NZ: the middles of NX x NZ cells of a horizontal plane at height "

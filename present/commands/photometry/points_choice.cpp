@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "host/base/byte_order_mark.h"
 #include "host/base/error.h"
@@ -32,6 +33,23 @@ std::vector<double> plane_numbers(const std::string& option, std::string_view te
         out.push_back(*value);
     }
     return out;
+}
+
+// Whether a line has names of columns instead of a point.
+bool are_names(std::string_view line) {
+    const char first = lower(line.substr(0, 1))[0];
+    const bool is_word = ('a' <= first && first <= 'z') || first == '"' || first == '_';
+    return is_word && !number_of<double>(trim(split(line, ',')[0]));
+}
+
+// "x,y,nx" of "x [m], y [m], nx".
+std::string names_without_units(std::string_view line) {
+    std::vector<std::string> out;
+    for (const std::string_view field : split(line, ',')) {
+        const std::string_view name = trim(field);
+        out.emplace_back(name.substr(0, name.find(' ')));
+    }
+    return joined(out, ",");
 }
 
 MeasuringPoint point_of_line(std::string_view line, const std::string& where) {
@@ -128,11 +146,13 @@ std::vector<MeasuringPoint> read_points(const std::filesystem::path& file) {
         const std::string_view line = trim(left.substr(0, end));
         left.remove_prefix(std::min(end + 1, left.size()));
         if (line.empty() || line.front() == '#') continue;
-        const bool is_names = is_first && !number_of<double>(trim(split(line, ',')[0])) &&
-                              lower(line).starts_with('x');
-        is_first = false;
-        if (is_names) continue;
-        out.push_back(point_of_line(line, fmt::format("{}: line {}", file.string(), number)));
+        const std::string where = fmt::format("{}: line {}", file.string(), number);
+        if (!std::exchange(is_first, false) || !are_names(line)) {
+            out.push_back(point_of_line(line, where));
+        } else if (lower(names_without_units(line)) != kPointColumns) {
+            throw Error(fmt::format("{}: the columns are '{}', must be {}", where,
+                                    line.substr(0, 80), kPointColumns));
+        }
     }
     if (out.empty()) throw Error(file.string() + ": has no points");
     return out;

@@ -30,9 +30,9 @@ std::string text_of(const MeasuringGrid& plane);
 
 std::vector<MeasuringPoint> points_of(const MeasuringGrid& plane);
 
-/// Reads a CSV with a point a line: x,y,z [m] and a normal of any length. A first line of names,
-/// empty lines and lines that begin with '#' are left out. Throws Error with the file, the line and
-/// the value seen.
+/// Reads a CSV with a point a line: x,y,z [m] and a normal of any length, at most 256 MiB. A first
+/// line "x,y,z,nx,ny,nz", also with units, empty lines and lines that begin with '#' are left out.
+/// Throws Error with the file, the line and the value seen.
 std::vector<MeasuringPoint> read_points(const std::filesystem::path& file);
 
 }  // namespace kilolux

@@ -85,8 +85,8 @@ TEST_F(PhotometryCommand, WritesAPlaneAsCsv) {
     EXPECT_EQ(table.rows[4][10], "0 point");
 }
 
-TEST_F(PhotometryCommand, AByteOrderMarkIsLeftOut) {
-    for (const char* names : {"", "x,y,z,nx,ny,nz\n"}) {
+TEST_F(PhotometryCommand, AByteOrderMarkAndNamesAreLeftOut) {
+    for (const char* names : {"", "x,y,z,nx,ny,nz\n", "X [m], Y [m], Z [m], NX, NY, NZ\r\n"}) {
         const std::string file = points(std::string("\xef\xbb\xbf") + names + "0,0,0,0,1,0\n");
         const ChildResult result = run({"--points", file, "--json"});
         ASSERT_EQ(result.code, 0) << result.err;
@@ -127,6 +127,10 @@ TEST_F(PhotometryCommand, BadInputIsALine) {
         {"0,0,0,0,1,0\n1,2,3\n", "points.csv: line 2: has 3 fields, must have 6: x,y,z,nx,ny,nz"},
         {"0,0,0,0,0,0\n", "points.csv: line 1: the normal is 0,0,0, must have a direction"},
         {"0,nan,0,0,1,0\n", "points.csv: line 1: y is 'nan', must be a finite number"},
+        {"x,z,y,nx,ny,nz\n0,0,0,0,1,0\n",
+         "points.csv: line 1: the columns are 'x,z,y,nx,ny,nz', must be x,y,z,nx,ny,nz"},
+        {"px,py,pz,nx,ny,nz\n0,0,0,0,1,0\n",
+         "points.csv: line 1: the columns are 'px,py,pz,nx,ny,nz', must be x,y,z,nx,ny,nz"},
         {"# a\n0,0,0,0,1,up\n", "points.csv: line 2: nz is 'up', must be a finite number"}};
     for (const auto& [text, why] : files) expect_refused({"--points", points(text)}, 1, why);
 }
