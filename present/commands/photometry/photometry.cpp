@@ -200,11 +200,7 @@ void visit_settings(PhotometryOptions& options, const SettingVisitor& f) {
              "CSV with a point a line: x,y,z,nx,ny,nz, position in metres and the normal of "
              "the surface that is lit; a first line of these names is left out"},
             options.points)
-        .value({"--plane", "NUMBERS", "",
-                "X0,Z0,X1,Z1,Y,NX,NZ: the middles of NX x NZ cells of a horizontal plane at height "
-                "Y, facing up; or X,Y,Z,UX,UY,UZ,VX,VY,VZ,NU,NV: an origin and two edges, facing U "
-                "x V"},
-               options.plane, parse_plane)
+        .value({"--plane", "NUMBERS", "", kPlaneSyntax}, options.plane, parse_plane)
         .count({"--exact-points", "N", "a second's work",
                 "Points that float64 computes, too, evenly among all: their error of the kernels "
                 "and their largest contributors are known",

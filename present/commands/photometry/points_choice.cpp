@@ -15,7 +15,7 @@
 namespace kilolux {
 namespace {
 
-constexpr double kMostPoints = 134217728.0;  // 2^27: 20 GB
+constexpr double kMostPoints = 134217728.0;  // 2^27: 10 GB, of JSON a multiple
 constexpr std::string_view kPointColumns = "x,y,z,nx,ny,nz";
 
 [[noreturn]] void refuse_plane(const std::string& option, std::string_view text,
@@ -33,6 +33,14 @@ std::vector<double> plane_numbers(const std::string& option, std::string_view te
         out.push_back(*value);
     }
     return out;
+}
+
+// False for what is not finite, too.
+bool is_near_enough(const glm::dvec3& point) { return glm::length(point) < kFarthestPoint; }
+
+std::string far_point(const glm::dvec3& p) {
+    return fmt::format("has a point at {},{},{}, must be nearer than {} m to the origin", p.x, p.y,
+                       p.z, kFarthestPoint);
 }
 
 // Whether a line has names of columns instead of a point.
@@ -69,13 +77,15 @@ MeasuringPoint point_of_line(std::string_view line, const std::string& where) {
         }
         values[i] = *value;
     }
+    const glm::dvec3 position(values[0], values[1], values[2]);
+    if (!is_near_enough(position)) throw Error(fmt::format("{}: {}", where, far_point(position)));
     const glm::dvec3 normal(values[3], values[4], values[5]);
     const double length = glm::length(normal);
     if (!(length > 0.0 && std::isfinite(length))) {
         throw Error(fmt::format("{}: the normal is {},{},{}, must have a direction", where,
                                 normal.x, normal.y, normal.z));
     }
-    return {{values[0], values[1], values[2]}, normal / length};
+    return {position, normal / length};
 }
 
 }  // namespace
@@ -92,9 +102,11 @@ MeasuringGrid parse_plane(const std::string& option, std::string_view text) {
         out = {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]}};
     } else {
         refuse_plane(option, text,
-                     fmt::format("has {} numbers, must have 7 (X0,Z0,X1,Z1,Y,NX,NZ) or 11 (origin, "
-                                 "edges U and V, NU,NV)",
-                                 n.size()));
+                     fmt::format("has {} numbers, must have 7 or 11: {}", n.size(), kPlaneSyntax));
+    }
+    for (const glm::dvec3& corner :
+         {out.origin, out.origin + out.u, out.origin + out.v, out.origin + out.u + out.v}) {
+        if (!is_near_enough(corner)) refuse_plane(option, text, far_point(corner));
     }
     if (!(glm::length(glm::cross(out.u, out.v)) > 0.0)) {
         refuse_plane(option, text, "has edges in one line, so no normal");

@@ -21,8 +21,11 @@ struct MeasuringGrid {
     bool operator==(const MeasuringGrid&) const = default;
 };
 
-/// "X0,Z0,X1,Z1,Y,NX,NZ": a horizontal plane at height Y, facing up, X0 < X1, Z0 < Z1;
-/// "X,Y,Z,UX,UY,UZ,VX,VY,VZ,NU,NV": an origin and two edges. Throws UsageError.
+inline constexpr const char* kPlaneSyntax =
+    "X0,Z0,X1,Z1,Y,NX,NZ: the middles of NX x NZ cells of a horizontal plane at height Y, facing "
+    "up; or X,Y,Z,UX,UY,UZ,VX,VY,VZ,NU,NV: an origin and two edges, facing U x V";
+
+/// Reads kPlaneSyntax, with X0 < X1 and Z0 < Z1. Throws UsageError.
 MeasuringGrid parse_plane(const std::string& option, std::string_view text);
 
 /// The second form, which reads back as the same plane; "" for none.

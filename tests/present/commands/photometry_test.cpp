@@ -120,12 +120,15 @@ TEST_F(PhotometryCommand, BadInputIsALine) {
     expect_refused({"--plane", "1,0,0,1,0,2,2"}, 2, "must have X0 < X1");
     expect_refused({"--plane", "0,0,1,1,0,2,0.5"}, 2, "has 0.5 points along an edge");
     expect_refused({"--plane", "0,0,0,1,0,0,2,0,0,3,3"}, 2, "has edges in one line");
+    expect_refused({"--plane", "0,0,0,1e155,0,0,0,0,1e155,3,3"}, 2,
+                   "has a point at 1e+155,0,0, must be nearer than 1e+15 m to the origin");
     expect_refused({"--points", "nowhere.csv"}, 1, "nowhere.csv");
     const std::pair<std::string, std::string> files[] = {
         {"", "points.csv: has no points"},
         {"x,y,z,nx,ny,nz\n", "points.csv: has no points"},
         {"0,0,0,0,1,0\n1,2,3\n", "points.csv: line 2: has 3 fields, must have 6: x,y,z,nx,ny,nz"},
         {"0,0,0,0,0,0\n", "points.csv: line 1: the normal is 0,0,0, must have a direction"},
+        {"0,0,-2e15,0,1,0\n", "points.csv: line 1: has a point at 0,0,-2e+15, must be nearer"},
         {"0,nan,0,0,1,0\n", "points.csv: line 1: y is 'nan', must be a finite number"},
         {"x,z,y,nx,ny,nz\n0,0,0,0,1,0\n",
          "points.csv: line 1: the columns are 'x,z,y,nx,ny,nz', must be x,y,z,nx,ny,nz"},
