@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "host/measure/metrics/compensated_sum.h"
 #include "host/scene/lights/light_kinds.h"
@@ -56,9 +57,9 @@ LuxSummary summary_of(const Illuminances& result) {
 
 // The kernels against float64 on the points that have both.
 struct KernelErrors {
-    double relative = 0.0;       // the largest, of points that float64 lights
-    double lux = 0.0;            // the largest difference [lx]
-    std::size_t edge_cases = 0;  // lit by one of both alone: on the edge of a cone or a range
+    std::optional<double> relative;  // the largest, of points that both light; none: there is none
+    std::optional<double> lux;       // the largest difference [lx]; none: nothing was compared
+    std::size_t lit_by_one = 0;      // points that only one of both lights
 };
 
 KernelErrors errors_of(const Illuminances& result) {
@@ -66,14 +67,28 @@ KernelErrors errors_of(const Illuminances& result) {
     for (std::size_t k = 0; k < result.exact.size(); ++k) {
         const double exact = result.exact[k].lux;
         const double found = result.kernels[result.float64_indices[k]];
-        out.lux = std::max(out.lux, std::abs(found - exact));
-        out.edge_cases += (found > 0.0) != (exact > 0.0);
+        out.lux = std::max(out.lux.value_or(0.0), std::abs(found - exact));
+        out.lit_by_one += (found > 0.0) != (exact > 0.0);
         if (found > 0.0 && exact > 0.0) {
-            out.relative = std::max(out.relative, std::abs(found / exact - 1.0));
+            out.relative = std::max(out.relative.value_or(0.0), std::abs(found / exact - 1.0));
         }
     }
     return out;
 }
+
+std::string text_of(const KernelErrors& errors) {
+    if (!errors.lux) return "kernels are not compared";
+    std::string out = "kernels differ by ";
+    if (errors.relative) out += fmt::format("{:.2g} relative, ", *errors.relative);
+    out += fmt::format("{:.2g} lx at most", *errors.lux);
+    if (errors.lit_by_one == 0) return out;
+    return out + fmt::format(
+                     "; only one of the two ways lights {} of these points (edges of cones, "
+                     "ranges, webs, grazing light)",
+                     errors.lit_by_one);
+}
+
+LuxJson json_of(const std::optional<double>& value) { return value ? LuxJson(*value) : LuxJson(); }
 
 double largest_of(const std::vector<double>& values) {
     return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
@@ -92,9 +107,9 @@ LuxJson summary_json(const Illuminances& result, const Scene& scene) {
                 {"ambient_apart_lx", result.ambient},
                 {"environment_apart_at_most_lx", largest_of(result.environment)}};
     out["float64"] = {{"points", result.exact.size()},
-                      {"largest_relative_error_of_kernels", errors.relative},
-                      {"largest_error_of_kernels_lx", errors.lux},
-                      {"edge_cases", errors.edge_cases}};
+                      {"largest_relative_error_of_kernels", json_of(errors.relative)},
+                      {"largest_error_of_kernels_lx", json_of(errors.lux)},
+                      {"lit_by_one", errors.lit_by_one}};
     out["model"] = "direct light; no shadows, no interreflection";
     return out;
 }
@@ -179,19 +194,14 @@ LuxJson illuminance_json(const Illuminances& result, const Scene& scene) {
 std::string illuminance_text(const Illuminances& result, const Scene& scene) {
     constexpr std::size_t kShown = 20;  // lines of the table
     const LuxSummary lux = summary_of(result);
-    const KernelErrors errors = errors_of(result);
     std::string out = fmt::format(
         "points      {}, {} lights; direct light without shadows or interreflection\n"
         "illuminance minimum {:.6g} lx, mean {:.6g} lx, maximum {:.6g} lx; uniformity (minimum / "
         "mean) {:.4g}\n"
-        "float64     on {} points: kernels differ by {:.2g} relative, {:.2g} lx at most",
+        "float64     on {} points: {}\n"
+        "ranges      cut off at most {:.4g} lx at a point\n",
         result.points.size(), scene.lights.size(), lux.least, lux.mean, lux.most, lux.uniformity(),
-        result.exact.size(), errors.relative, errors.lux);
-    if (errors.edge_cases > 0) {
-        out += fmt::format("; {} lie on the edge of a cone or a range", errors.edge_cases);
-    }
-    out += fmt::format("\nranges      cut off at most {:.4g} lx at a point\n",
-                       largest_of(result.range_loss));
+        result.exact.size(), text_of(errors_of(result)), largest_of(result.range_loss));
     if (result.ambient > 0.0) out += fmt::format("ambient     {:.6g} lx, apart\n", result.ambient);
     if (!result.environment.empty()) {
         out +=

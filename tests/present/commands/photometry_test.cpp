@@ -85,6 +85,17 @@ TEST_F(PhotometryCommand, WritesAPlaneAsCsv) {
     EXPECT_EQ(table.rows[4][10], "0 point");
 }
 
+TEST_F(PhotometryCommand, WhatIsNotComparedHasNoError) {
+    const Words words = {"--plane=0,0,1,1,0,2,1", "--exact-points", "0"};
+    const ChildResult text = run(words);
+    EXPECT_TRUE(contains(text.out, "on 0 points: kernels are not compared")) << text.out;
+    const ChildResult result = run({words[0], words[1], words[2], "--json"});
+    const Json float64 = Json::parse(result.out).at("summary").at("float64");
+    EXPECT_TRUE(float64.at("largest_relative_error_of_kernels").is_null());
+    EXPECT_TRUE(float64.at("largest_error_of_kernels_lx").is_null());
+    EXPECT_EQ(float64.at("lit_by_one"), 0);
+}
+
 TEST_F(PhotometryCommand, AByteOrderMarkAndNamesAreLeftOut) {
     for (const char* names : {"", "x,y,z,nx,ny,nz\n", "X [m], Y [m], Z [m], NX, NY, NZ\r\n"}) {
         const std::string file = points(std::string("\xef\xbb\xbf") + names + "0,0,0,0,1,0\n");
