@@ -28,12 +28,12 @@ Cell kernel_error(const Illuminances& result, std::size_t i) {
 }
 
 // "17 point", or "17 point 'lamp'" with the name of its photometric file.
-std::string light_name(const Scene& scene, std::size_t number) {
-    const SceneLight& light = scene.lights[number];
-    std::string out = fmt::format("{} {}", number, kind_of(light).name);
+std::string light_name(const LitScene& lit, std::size_t index) {
+    const SceneLight& light = lit.scene.lights[index];
+    std::string out = fmt::format("{} {}", lit.light_numbers[index], kind_of(light).name);
     if (light.profile < 0) return out;
-    const SceneProfile& profile = scene.aimed_profiles[static_cast<std::size_t>(light.profile)];
-    const std::string& web = scene.webs[profile.web].name;
+    const SceneProfile& profile = lit.scene.aimed_profiles[static_cast<std::size_t>(light.profile)];
+    const std::string& web = lit.scene.webs[profile.web].name;
     return web.empty() ? out : fmt::format("{} '{}'", out, web);
 }
 
@@ -94,11 +94,11 @@ double largest_of(const std::vector<double>& values) {
     return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
 }
 
-LuxJson summary_json(const Illuminances& result, const Scene& scene) {
+LuxJson summary_json(const Illuminances& result, const LitScene& lit) {
     const LuxSummary lux = summary_of(result);
     const KernelErrors errors = errors_of(result);
     LuxJson out{{"points", result.points.size()},
-                {"lights", scene.lights.size()},
+                {"lights", lit.scene.lights.size()},
                 {"minimum_lx", lux.least},
                 {"mean_lx", lux.mean},
                 {"maximum_lx", lux.most},
@@ -114,11 +114,22 @@ LuxJson summary_json(const Illuminances& result, const Scene& scene) {
     return out;
 }
 
+// What a light adds to a point; where it is, or shines to.
+LuxJson contributor_json(const LitScene& lit, const LightLux& part) {
+    const SceneLight& light = lit.scene.lights[part.light];
+    const bool is_placed = kind_of(light).is_placed;
+    const glm::dvec3& place = is_placed ? light.position : light.direction;
+    return {{"light", lit.light_numbers[part.light]},
+            {"name", light_name(lit, part.light)},
+            {is_placed ? "position" : "direction", {place.x, place.y, place.z}},
+            {"lux", part.lux}};
+}
+
 // Of points with a float64 value.
-void add_contributors(std::vector<Cell>& row, const ExactIlluminance* exact, const Scene& scene) {
+void add_contributors(std::vector<Cell>& row, const ExactIlluminance* exact, const LitScene& lit) {
     for (std::size_t k = 0; k < 3; ++k) {
         if (exact != nullptr && exact->largest[k].lux > 0.0) {
-            row.emplace_back(light_name(scene, exact->largest[k].light));
+            row.emplace_back(light_name(lit, exact->largest[k].light));
             row.emplace_back(exact->largest[k].lux);
         } else {
             row.resize(row.size() + 2);
@@ -126,18 +137,18 @@ void add_contributors(std::vector<Cell>& row, const ExactIlluminance* exact, con
     }
 }
 
-std::vector<Cell> table_row(const Illuminances& result, const Scene& scene, std::size_t i) {
+std::vector<Cell> table_row(const Illuminances& result, const LitScene& lit, std::size_t i) {
     const MeasuringPoint& point = result.points[i];
     const glm::dvec3 &p = point.position, &n = point.normal;
     std::vector<Cell> row = {p.x, p.y, p.z, n.x, n.y, n.z, lux_of(result, i), result.kernels[i]};
     row.push_back(kernel_error(result, i));
     row.push_back(result.range_loss[i]);
     if (!result.environment.empty()) row.push_back(result.environment[i]);
-    add_contributors(row, result.exact_of(i), scene);
+    add_contributors(row, result.exact_of(i), lit);
     return row;
 }
 
-Table lux_table_of(const Illuminances& result, const Scene& scene, std::size_t count) {
+Table lux_table_of(const Illuminances& result, const LitScene& lit, std::size_t count) {
     Table out{{"x [m]", "y [m]", "z [m]", "nx", "ny", "nz", "illuminance [lx]", "kernels [lx]",
                "error of kernels", "cut off at most [lx]"},
               {}};
@@ -146,11 +157,11 @@ Table lux_table_of(const Illuminances& result, const Scene& scene, std::size_t c
         out.columns.push_back(fmt::format("light {}", place));
         out.columns.push_back(fmt::format("light {} [lx]", place));
     }
-    for (std::size_t i = 0; i < count; ++i) out.rows.push_back(table_row(result, scene, i));
+    for (std::size_t i = 0; i < count; ++i) out.rows.push_back(table_row(result, lit, i));
     return out;
 }
 
-LuxJson point_json(const Illuminances& result, const Scene& scene, std::size_t i) {
+LuxJson point_json(const Illuminances& result, const LitScene& lit, std::size_t i) {
     const MeasuringPoint& point = result.points[i];
     const glm::dvec3 &p = point.position, &n = point.normal;
     LuxJson out{{"position", {p.x, p.y, p.z}},
@@ -164,9 +175,7 @@ LuxJson point_json(const Illuminances& result, const Scene& scene, std::size_t i
     out["largest"] = LuxJson::array();
     if (exact == nullptr) return out;
     for (const LightLux& part : exact->largest) {
-        if (part.lux <= 0.0) continue;
-        out["largest"].push_back(
-            {{"light", part.light}, {"name", light_name(scene, part.light)}, {"lux", part.lux}});
+        if (part.lux > 0.0) out["largest"].push_back(contributor_json(lit, part));
     }
     return out;
 }
@@ -179,19 +188,19 @@ const ExactIlluminance* Illuminances::exact_of(std::size_t i) const {
     return &exact[static_cast<std::size_t>(found - float64_indices.begin())];
 }
 
-Table illuminance_table(const Illuminances& result, const Scene& scene) {
-    return lux_table_of(result, scene, result.points.size());
+Table illuminance_table(const Illuminances& result, const LitScene& lit) {
+    return lux_table_of(result, lit, result.points.size());
 }
 
-LuxJson illuminance_json(const Illuminances& result, const Scene& scene) {
-    LuxJson out{{"summary", summary_json(result, scene)}, {"points", LuxJson::array()}};
+LuxJson illuminance_json(const Illuminances& result, const LitScene& lit) {
+    LuxJson out{{"summary", summary_json(result, lit)}, {"points", LuxJson::array()}};
     for (std::size_t i = 0; i < result.points.size(); ++i) {
-        out["points"].push_back(point_json(result, scene, i));
+        out["points"].push_back(point_json(result, lit, i));
     }
     return out;
 }
 
-std::string illuminance_text(const Illuminances& result, const Scene& scene) {
+std::string illuminance_text(const Illuminances& result, const LitScene& lit) {
     constexpr std::size_t kShown = 20;  // lines of the table
     const LuxSummary lux = summary_of(result);
     std::string out = fmt::format(
@@ -200,7 +209,7 @@ std::string illuminance_text(const Illuminances& result, const Scene& scene) {
         "mean) {:.4g}\n"
         "float64     on {} points: {}\n"
         "ranges      cut off at most {:.4g} lx at a point\n",
-        result.points.size(), scene.lights.size(), lux.least, lux.mean, lux.most, lux.uniformity(),
+        result.points.size(), lit.scene.lights.size(), lux.least, lux.mean, lux.most, lux.uniformity(),
         result.exact.size(), text_of(errors_of(result)), largest_of(result.range_loss));
     if (result.ambient > 0.0) out += fmt::format("ambient     {:.6g} lx, apart\n", result.ambient);
     if (!result.environment.empty()) {
@@ -209,7 +218,7 @@ std::string illuminance_text(const Illuminances& result, const Scene& scene) {
     }
     const std::size_t shown = std::min(kShown, result.points.size());
     out += '\n';
-    out += to_markdown(lux_table_of(result, scene, shown), 6);
+    out += to_markdown(lux_table_of(result, lit, shown), 6);
     if (shown < result.points.size()) {
         out += fmt::format("{} more points: -o FILE.csv or --json has all\n",
                            result.points.size() - shown);

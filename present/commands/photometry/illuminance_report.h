@@ -11,6 +11,12 @@
 
 namespace kilolux {
 
+/// A scene whose lights can all be used, in the world.
+struct LitScene {
+    Scene scene;
+    std::vector<std::size_t> light_numbers;  // of its lights, among all that it was given
+};
+
 /// The illuminance of points by both ways [lx].
 struct Illuminances {
     std::vector<MeasuringPoint> points;
@@ -27,12 +33,12 @@ struct Illuminances {
 
 /// A line a point: position, normal, illuminance, that of the kernels, their relative error, what
 /// ranges cut off, the environment's, and the three largest contributors.
-Table illuminance_table(const Illuminances& result, const Scene& scene);
+Table illuminance_table(const Illuminances& result, const LitScene& lit);
 
 /// The document of --json and -o FILE.json: a summary, and a point each.
-nlohmann::ordered_json illuminance_json(const Illuminances& result, const Scene& scene);
+nlohmann::ordered_json illuminance_json(const Illuminances& result, const LitScene& lit);
 
 /// The summary, and the first lines of the table.
-std::string illuminance_text(const Illuminances& result, const Scene& scene);
+std::string illuminance_text(const Illuminances& result, const LitScene& lit);
 
 }  // namespace kilolux

@@ -67,23 +67,27 @@ void settle_options(PhotometryOptions& options) {
     }
 }
 
-// Leaves out lights that cannot be used.
-void keep_usable(std::vector<SceneLight>& lights, const std::string& scene) {
+// Leaves out lights that cannot be used; returns the others' numbers.
+std::vector<std::size_t> keep_usable(std::vector<SceneLight>& lights, const std::string& scene) {
     std::vector<SceneLight> ranged = lights;
     fill_missing_ranges(ranged, Tails::exact);
     std::vector<SceneLight> kept;
+    std::vector<std::size_t> numbers;
     for (std::size_t i = 0; i < lights.size(); ++i) {
-        if (is_usable(ranged[i], glm::dvec3(0.0))) kept.push_back(lights[i]);
+        if (!is_usable(ranged[i], glm::dvec3(0.0))) continue;
+        kept.push_back(lights[i]);
+        numbers.push_back(i);
     }
     if (kept.size() < lights.size()) {
         warn(
             fmt::format("{}: {} unusable lights are left out", scene, lights.size() - kept.size()));
     }
     lights = std::move(kept);
+    return numbers;
 }
 
 // The scene at its time with all of its lights, in the world.
-Scene lit_scene(SharedOptions& shared) {
+LitScene lit_scene(SharedOptions& shared) {
     Scene scene = open_scene(shared);
     const Camera camera = choose_camera(shared, scene);
     const auto generated = generate_lights(shared.settings.lights, scene, shared.time);
@@ -92,8 +96,8 @@ Scene lit_scene(SharedOptions& shared) {
         light = placed_light(light, camera.world_from_view, camera.position);
         light.follows_camera = false;
     }
-    keep_usable(scene.lights, shared.scene);
-    return scene;
+    std::vector<std::size_t> numbers = keep_usable(scene.lights, shared.scene);
+    return {std::move(scene), std::move(numbers)};
 }
 
 // The light of the environment's map on each point [lx], as that of directional lights.
@@ -158,11 +162,11 @@ Illuminances measured(const PhotometryOptions& options, std::vector<MeasuringPoi
     return out;
 }
 
-void write_result(const fs::path& file, const Illuminances& result, const Scene& scene) {
+void write_result(const fs::path& file, const Illuminances& result, const LitScene& lit) {
     if (result_format(file) == ResultFormat::json) {
-        write_json(file.string(), illuminance_json(result, scene));
+        write_json(file.string(), illuminance_json(result, lit));
     } else {
-        write_atomically(file, to_csv(illuminance_table(result, scene)));
+        write_atomically(file, to_csv(illuminance_table(result, lit)));
     }
 }
 
@@ -174,14 +178,14 @@ void run_photometry(PhotometryOptions& options) {
         options.points.empty() ? points_of(options.plane) : read_points(options.points);
     // Its light is counted apart, not among the scene's.
     const std::string environment = std::exchange(options.shared.environment, "");
-    const Scene scene = lit_scene(options.shared);
-    if (scene.lights.empty() && environment.empty()) {
+    const LitScene lit = lit_scene(options.shared);
+    if (lit.scene.lights.empty() && environment.empty()) {
         throw Error(options.shared.scene + ": has no lights to measure; --lights N adds some");
     }
-    const Illuminances result = measured(options, std::move(points), scene, environment);
-    if (!options.output.empty()) write_result(options.output, result, scene);
-    const auto document = options.json ? illuminance_json(result, scene) : nlohmann::ordered_json();
-    print_result(options.json, document, illuminance_text(result, scene));
+    const Illuminances result = measured(options, std::move(points), lit.scene, environment);
+    if (!options.output.empty()) write_result(options.output, result, lit);
+    const auto document = options.json ? illuminance_json(result, lit) : nlohmann::ordered_json();
+    print_result(options.json, document, illuminance_text(result, lit));
     if (!options.output.empty()) note("wrote   " + options.output.string());
 }
 

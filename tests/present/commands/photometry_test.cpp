@@ -26,7 +26,7 @@ constexpr const char* kLamps = R"({"asset":{"version":"2.0"},"scene":0,"scenes":
 class PhotometryCommand : public testing::Test {
  protected:
     std::string scene() {
-        write_text(folder_ / "lamps.gltf", kLamps);
+        write_text(folder_ / "lamps.gltf", lamps_);
         return (folder_ / "lamps.gltf").string();
     }
     std::string points(const std::string& text) {
@@ -44,6 +44,7 @@ class PhotometryCommand : public testing::Test {
         EXPECT_EQ(result.out, "");
     }
     TemporaryFolder folder_;
+    std::string lamps_ = kLamps;
 };
 
 TEST_F(PhotometryCommand, TellsEachPointAndTheSummary) {
@@ -66,6 +67,19 @@ TEST_F(PhotometryCommand, TellsEachPointAndTheSummary) {
     EXPECT_NEAR(summary.at("uniformity").get<double>(), below / (0.5 * (below + between)), 1e-9);
     EXPECT_NEAR(summary.at("ambient_apart_lx").get<double>(), 0.5 * 3.14159265358979, 1e-6);
     EXPECT_LE(summary.at("float64").at("largest_relative_error_of_kernels").get<double>(), 1e-5);
+}
+
+// The first of the two gives no light.
+TEST_F(PhotometryCommand, LightsKeepTheirNumbers) {
+    lamps_.replace(lamps_.find("100"), 3, "0");
+    const ChildResult result = run({"--points", points("0,0,0,0,1,0\n"), "--json"});
+    ASSERT_EQ(result.code, 0) << result.err;
+    EXPECT_TRUE(contains(result.err, "1 unusable lights are left out")) << result.err;
+    const Json largest = Json::parse(result.out).at("points").at(0).at("largest");
+    ASSERT_EQ(largest.size(), 1u);
+    EXPECT_EQ(largest.at(0).at("light"), 1);
+    EXPECT_EQ(largest.at(0).at("name"), "1 point");
+    EXPECT_EQ(largest.at(0).at("position"), Json({0.0, 4.0, 0.0}));
 }
 
 TEST_F(PhotometryCommand, WritesAPlaneAsCsv) {
