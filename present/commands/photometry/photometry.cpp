@@ -100,14 +100,25 @@ LitScene lit_scene(SharedOptions& shared) {
     return {std::move(scene), std::move(numbers)};
 }
 
-// The light of the environment's map on each point [lx], as that of directional lights.
-std::vector<double> environment_lux(const SharedOptions& shared, const std::string& environment,
+// Takes the environment's light out of the options, as directional lights: it is counted apart, not
+// among the scene's.
+Scene take_environment(SharedOptions& shared) {
+    Scene out;
+    const std::string environment = std::exchange(shared.environment, "");
+    if (environment.empty()) return out;
+    out.lights = environment_lights(environment_of(environment, shared.settings.max_memory_bytes),
+                                    static_cast<std::size_t>(shared.environment_lights));
+    // As in a picture: where something else lights, emissive surfaces do when they are asked to.
+    if (!out.lights.empty() && shared.emissive_lights == EmissiveLights::automatic) {
+        shared.emissive_lights = EmissiveLights::off;
+    }
+    return out;
+}
+
+// The environment's light on each point [lx]; empty without one.
+std::vector<double> environment_lux(const Scene& around,
                                     const std::vector<MeasuringPoint>& points) {
-    if (environment.empty()) return {};
-    Scene around;
-    around.lights =
-        environment_lights(environment_of(environment, shared.settings.max_memory_bytes),
-                           static_cast<std::size_t>(shared.environment_lights));
+    if (around.lights.empty()) return {};
     const ExactLighting lighting(around);
     std::vector<double> out(points.size());
     const auto light_group = [&](int group) {
@@ -135,7 +146,7 @@ std::vector<std::size_t> float64_indices(const PhotometryOptions& options, std::
 }
 
 Illuminances measured(const PhotometryOptions& options, std::vector<MeasuringPoint> points,
-                      const Scene& scene, const std::string& environment) {
+                      const Scene& scene, const Scene& around) {
     Illuminances out;
     out.points = std::move(points);
     const SharedOptions& shared = options.shared;
@@ -156,7 +167,7 @@ Illuminances measured(const PhotometryOptions& options, std::vector<MeasuringPoi
     for (std::size_t k = 0; k < out.exact.size(); ++k) {
         out.range_loss[out.float64_indices[k]] = out.exact[k].range_loss;
     }
-    out.environment = environment_lux(shared, environment, out.points);
+    out.environment = environment_lux(around, out.points);
     // Radiance from everywhere arrives as pi times it.
     if (shared.ambient_given) out.ambient = std::numbers::pi * double{shared.settings.ambient};
     return out;
@@ -176,13 +187,12 @@ void run_photometry(PhotometryOptions& options) {
     if (!options.output.empty()) check_can_write(options.output);
     std::vector<MeasuringPoint> points =
         options.points.empty() ? points_of(options.plane) : read_points(options.points);
-    // Its light is counted apart, not among the scene's.
-    const std::string environment = std::exchange(options.shared.environment, "");
+    const Scene around = take_environment(options.shared);
     const LitScene lit = lit_scene(options.shared);
-    if (lit.scene.lights.empty() && environment.empty()) {
+    if (lit.scene.lights.empty() && around.lights.empty()) {
         throw Error(options.shared.scene + ": has no lights to measure; --lights N adds some");
     }
-    const Illuminances result = measured(options, std::move(points), lit.scene, environment);
+    const Illuminances result = measured(options, std::move(points), lit.scene, around);
     if (!options.output.empty()) write_result(options.output, result, lit);
     const auto document = options.json ? illuminance_json(result, lit) : nlohmann::ordered_json();
     print_result(options.json, document, illuminance_text(result, lit));

@@ -7,6 +7,7 @@
 #include "host/measure/bench/table.h"
 #include "present/commands/photometry/points_choice.h"
 #include "tests/support/child.h"
+#include "tests/support/lit_hall.h"
 #include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 
@@ -133,6 +134,26 @@ TEST_F(PhotometryCommand, CountsTheEnvironmentApart) {
     EXPECT_GT(json.at("points").at(0).at("environment_lx").get<double>(), 0.0);
     EXPECT_EQ(json.at("summary").at("lights"), 2);
     EXPECT_LT(json.at("points").at(0).at("illuminance_lx").get<double>(), 32.0);
+}
+
+// As in pictures, they are lights where nothing else is.
+TEST_F(PhotometryCommand, EmissiveSurfacesLightWithoutAnEnvironment) {
+    Scene scene = box_scene({2.0, 3.0, 4.0});
+    scene.lights.clear();
+    scene.materials[0].emissive = glm::vec3(1.0f);
+    const std::string file = (folder_ / "glow.glb").string();
+    write_scene(scene, file);
+    const Words words = {"photometry", file, "--plane=-2,-2,2,2,5,2,2", "--json"};
+    const auto lights = [&](const Words& more) {
+        Words all = words;
+        all.insert(all.end(), more.begin(), more.end());
+        const ChildResult result = run_kilolux(all);
+        EXPECT_EQ(result.code, 0) << result.err;
+        return Json::parse(result.out).at("summary").at("lights").get<int>();
+    };
+    EXPECT_EQ(lights({}), 6);
+    EXPECT_EQ(lights({"--environment", "sky"}), 0);
+    EXPECT_EQ(lights({"--environment", "sky", "--emissive-lights", "on"}), 6);
 }
 
 TEST_F(PhotometryCommand, BadInputIsALine) {
