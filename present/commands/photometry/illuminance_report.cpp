@@ -20,12 +20,58 @@ double lux_of(const Illuminances& result, std::size_t i) {
     return exact != nullptr ? exact->lux : result.kernels[i];
 }
 
-// Relative to float64's value; none where that is 0.
-Cell kernel_error(const Illuminances& result, std::size_t i) {
+constexpr const char* kModel = "direct light, without shadows or interreflection";
+
+using LuxValue = std::optional<double>;
+
+LuxValue illuminance_value(const Illuminances& result, std::size_t i) { return lux_of(result, i); }
+
+LuxValue kernels_value(const Illuminances& result, std::size_t i) { return result.kernels[i]; }
+
+LuxValue float64_value(const Illuminances& result, std::size_t i) {
     const ExactIlluminance* exact = result.exact_of(i);
-    if (exact == nullptr || exact->lux == 0.0) return {};
-    return result.kernels[i] / exact->lux - 1.0;
+    return exact != nullptr ? LuxValue(exact->lux) : LuxValue();
 }
+
+// Relative to float64's value; none where that is 0.
+LuxValue kernel_error(const Illuminances& result, std::size_t i) {
+    const double exact = float64_value(result, i).value_or(0.0);
+    return exact != 0.0 ? LuxValue(result.kernels[i] / exact - 1.0) : LuxValue();
+}
+
+LuxValue range_loss_value(const Illuminances& result, std::size_t i) {
+    return result.range_loss[i];
+}
+
+LuxValue environment_value(const Illuminances& result, std::size_t i) {
+    return result.environment[i];
+}
+
+bool has_environment(const Illuminances& result) { return !result.environment.empty(); }
+
+// What each point has: a column of tables, a key of JSON.
+struct LuxColumn {
+    const char* title;
+    const char* key;
+    LuxValue (*value)(const Illuminances& result, std::size_t i);
+    bool (*is_present)(const Illuminances& result) = nullptr;  // null: always
+};
+
+constexpr LuxColumn kLuxColumns[] = {
+    {"illuminance [lx]", "illuminance_lx", illuminance_value},
+    {"kernels [lx]", "kernels_lx", kernels_value},
+    {"float64 [lx]", "float64_lx", float64_value},
+    {"error of kernels", "relative_error_of_kernels", kernel_error},
+    {"cut off at most [lx]", "cut_off_at_most_lx", range_loss_value},
+    {"environment [lx]", "environment_lx", environment_value, has_environment}};
+
+void each_column(const Illuminances& result, const auto& call) {
+    for (const LuxColumn& column : kLuxColumns) {
+        if (column.is_present == nullptr || column.is_present(result)) call(column);
+    }
+}
+
+LuxJson json_of(const LuxValue& value) { return value ? LuxJson(*value) : LuxJson(); }
 
 // "17 point", or "17 point 'lamp'" with the name of its photometric file.
 std::string light_name(const LitScene& lit, std::size_t index) {
@@ -88,8 +134,6 @@ std::string text_of(const KernelErrors& errors) {
                      errors.lit_by_one);
 }
 
-LuxJson json_of(const std::optional<double>& value) { return value ? LuxJson(*value) : LuxJson(); }
-
 double largest_of(const std::vector<double>& values) {
     return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
 }
@@ -110,7 +154,7 @@ LuxJson summary_json(const Illuminances& result, const LitScene& lit) {
                       {"largest_relative_error_of_kernels", json_of(errors.relative)},
                       {"largest_error_of_kernels_lx", json_of(errors.lux)},
                       {"lit_by_one", errors.lit_by_one}};
-    out["model"] = "direct light; no shadows, no interreflection";
+    out["model"] = kModel;
     return out;
 }
 
@@ -140,38 +184,23 @@ void add_contributors(std::vector<Cell>& row, const ExactIlluminance* exact, con
 std::vector<Cell> table_row(const Illuminances& result, const LitScene& lit, std::size_t i) {
     const MeasuringPoint& point = result.points[i];
     const glm::dvec3 &p = point.position, &n = point.normal;
-    std::vector<Cell> row = {p.x, p.y, p.z, n.x, n.y, n.z, lux_of(result, i), result.kernels[i]};
-    row.push_back(kernel_error(result, i));
-    row.push_back(result.range_loss[i]);
-    if (!result.environment.empty()) row.push_back(result.environment[i]);
+    std::vector<Cell> row = {p.x, p.y, p.z, n.x, n.y, n.z};
+    each_column(result, [&](const LuxColumn& column) {
+        row.push_back(cell_of(column.value(result, i)));
+    });
     add_contributors(row, result.exact_of(i), lit);
     return row;
-}
-
-Table lux_table_of(const Illuminances& result, const LitScene& lit, std::size_t count) {
-    Table out{{"x [m]", "y [m]", "z [m]", "nx", "ny", "nz", "illuminance [lx]", "kernels [lx]",
-               "error of kernels", "cut off at most [lx]"},
-              {}};
-    if (!result.environment.empty()) out.columns.emplace_back("environment [lx]");
-    for (const char* place : {"1", "2", "3"}) {
-        out.columns.push_back(fmt::format("light {}", place));
-        out.columns.push_back(fmt::format("light {} [lx]", place));
-    }
-    for (std::size_t i = 0; i < count; ++i) out.rows.push_back(table_row(result, lit, i));
-    return out;
 }
 
 LuxJson point_json(const Illuminances& result, const LitScene& lit, std::size_t i) {
     const MeasuringPoint& point = result.points[i];
     const glm::dvec3 &p = point.position, &n = point.normal;
     LuxJson out{{"position", {p.x, p.y, p.z}},
-                {"normal", {n.x, n.y, n.z}},
-                {"illuminance_lx", lux_of(result, i)},
-                {"kernels_lx", result.kernels[i]},
-                {"cut_off_at_most_lx", result.range_loss[i]}};
-    if (!result.environment.empty()) out["environment_lx"] = result.environment[i];
+                {"normal", {n.x, n.y, n.z}}};
+    each_column(result, [&](const LuxColumn& column) {
+        out[column.key] = json_of(column.value(result, i));
+    });
     const ExactIlluminance* exact = result.exact_of(i);
-    out["float64_lx"] = exact != nullptr ? LuxJson(exact->lux) : LuxJson();
     out["largest"] = LuxJson::array();
     if (exact == nullptr) return out;
     for (const LightLux& part : exact->largest) {
@@ -188,8 +217,16 @@ const ExactIlluminance* Illuminances::exact_of(std::size_t i) const {
     return &exact[static_cast<std::size_t>(found - float64_indices.begin())];
 }
 
-Table illuminance_table(const Illuminances& result, const LitScene& lit) {
-    return lux_table_of(result, lit, result.points.size());
+Table illuminance_table(const Illuminances& result, const LitScene& lit, std::size_t first,
+                        std::size_t end) {
+    Table out{{"x [m]", "y [m]", "z [m]", "nx", "ny", "nz"}, {}};
+    each_column(result, [&](const LuxColumn& column) { out.columns.emplace_back(column.title); });
+    for (const char* place : {"1", "2", "3"}) {
+        out.columns.push_back(fmt::format("light {}", place));
+        out.columns.push_back(fmt::format("light {} [lx]", place));
+    }
+    for (std::size_t i = first; i < end; ++i) out.rows.push_back(table_row(result, lit, i));
+    return out;
 }
 
 LuxJson illuminance_json(const Illuminances& result, const LitScene& lit) {
@@ -204,12 +241,12 @@ std::string illuminance_text(const Illuminances& result, const LitScene& lit) {
     constexpr std::size_t kShown = 20;  // lines of the table
     const LuxSummary lux = summary_of(result);
     std::string out = fmt::format(
-        "points      {}, {} lights; direct light without shadows or interreflection\n"
+        "points      {}, {} lights; {}\n"
         "illuminance minimum {:.6g} lx, mean {:.6g} lx, maximum {:.6g} lx; uniformity (minimum / "
         "mean) {:.4g}\n"
         "float64     on {} points: {}\n"
         "ranges      cut off at most {:.4g} lx at a point\n",
-        result.points.size(), lit.scene.lights.size(), lux.least, lux.mean, lux.most, lux.uniformity(),
+        result.points.size(), lit.scene.lights.size(), kModel, lux.least, lux.mean, lux.most, lux.uniformity(),
         result.exact.size(), text_of(errors_of(result)), largest_of(result.range_loss));
     if (result.ambient > 0.0) out += fmt::format("ambient     {:.6g} lx, apart\n", result.ambient);
     if (!result.environment.empty()) {
@@ -218,7 +255,7 @@ std::string illuminance_text(const Illuminances& result, const LitScene& lit) {
     }
     const std::size_t shown = std::min(kShown, result.points.size());
     out += '\n';
-    out += to_markdown(lux_table_of(result, lit, shown), 6);
+    out += to_markdown(illuminance_table(result, lit, 0, shown), 6);
     if (shown < result.points.size()) {
         out += fmt::format("{} more points: -o FILE.csv or --json has all\n",
                            result.points.size() - shown);

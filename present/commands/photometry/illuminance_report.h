@@ -31,11 +31,13 @@ struct Illuminances {
     const ExactIlluminance* exact_of(std::size_t i) const;
 };
 
-/// A line a point: position, normal, illuminance, that of the kernels, their relative error, what
-/// ranges cut off, the environment's, and the three largest contributors.
-Table illuminance_table(const Illuminances& result, const LitScene& lit);
+/// A line for each of the points [first, end): position, normal, illuminance, that of the kernels and of
+/// float64, their relative difference, what ranges take away, the environment's, and the three
+/// largest contributors.
+Table illuminance_table(const Illuminances& result, const LitScene& lit, std::size_t first,
+                        std::size_t end);
 
-/// The document of --json and -o FILE.json: a summary, and a point each.
+/// The document of --json and -o FILE.json: a summary, and for each point the same as its line.
 nlohmann::ordered_json illuminance_json(const Illuminances& result, const LitScene& lit);
 
 /// The summary, and the first lines of the table.

@@ -173,11 +173,24 @@ Illuminances measured(const PhotometryOptions& options, std::vector<MeasuringPoi
     return out;
 }
 
+// In parts: the cells of all points at once would take many times the points' memory.
+void write_csv(const fs::path& file, const Illuminances& result, const LitScene& lit) {
+    constexpr std::size_t kPart = 4096;  // points
+    AtomicFile out(file);
+    for (std::size_t first = 0; first < result.points.size(); first += kPart) {
+        check_interrupt();
+        const std::size_t end = std::min(first + kPart, result.points.size());
+        const std::string text = to_csv(illuminance_table(result, lit, first, end));
+        out.write(std::string_view(text).substr(first == 0 ? 0 : text.find('\n') + 1));
+    }
+    out.commit();
+}
+
 void write_result(const fs::path& file, const Illuminances& result, const LitScene& lit) {
     if (result_format(file) == ResultFormat::json) {
         write_json(file.string(), illuminance_json(result, lit));
     } else {
-        write_atomically(file, to_csv(illuminance_table(result, lit)));
+        write_csv(file, result, lit);
     }
 }
 

@@ -95,9 +95,21 @@ TEST_F(PhotometryCommand, WritesAPlaneAsCsv) {
     EXPECT_EQ(table.rows[0][0], "-1.5");
     EXPECT_EQ(table.rows[0][2], "0.5");
     EXPECT_EQ(table.rows[0][4], "1");
-    EXPECT_EQ(table.rows[0][10], "0 point");
-    EXPECT_EQ(table.rows[1][10], "");  // float64 computed points 0 and 4
-    EXPECT_EQ(table.rows[4][10], "0 point");
+    EXPECT_EQ(table.rows[0][11], "0 point");
+    EXPECT_EQ(table.rows[1][11], "");  // float64 computed points 0 and 4
+    EXPECT_EQ(table.rows[4][11], "0 point");
+}
+
+// In parts, with one header.
+TEST_F(PhotometryCommand, WritesManyPointsAsCsv) {
+    const auto file = folder_ / "lux.csv";
+    ASSERT_EQ(run({"--plane=0,0,10,1,0,5000,1", "-o", file.string()}).code, 0);
+    const TextTable table = parse_csv(text_of_file(file));
+    ASSERT_EQ(table.rows.size(), 5000u);
+    for (std::size_t i = 0; i < 5000; ++i) {
+        ASSERT_EQ(table.rows[i].size(), table.columns.size()) << i;
+        ASSERT_NEAR(std::stod(table.rows[i][0]), (static_cast<double>(i) + 0.5) / 500.0, 1e-9);
+    }
 }
 
 TEST_F(PhotometryCommand, WhatIsNotComparedHasNoError) {
