@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a light reaches, and where its shadow rays go. Only this header decides which points a light
-// reaches. A kind that does not fill the sphere of its range, or has a size, has its case here.
-// Lists ask cone_reaches() only where the scene has SceneFeatures::spot_lights.
+// Where a light reaches, and where its shadow rays go. Only this header decides which points a
+// light reaches. A kind that does not fill the sphere of its range, or has a size, has its case
+// here. Lists ask cone_reaches() only where the scene has SceneFeatures::spot_lights.
 #ifndef KILOLUX_DEVICE_LIGHT_REACH_H
 #define KILOLUX_DEVICE_LIGHT_REACH_H
 #include "kernels/shared/cluster_grid.h"

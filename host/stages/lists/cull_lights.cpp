@@ -141,8 +141,8 @@ CoarseLists CullLights::brute_force(const PreparedLights& lights, const ClusterB
 }
 
 // Of the form by_item: counting and filling read the lights once each; then a cursor, an offset and
-// a total a cluster. StageCounts do not tell the form. by_group has two launches more, and reads the
-// extents of spans, and the blocks and lights of those that reach it, for each cluster.
+// a total a cluster. StageCounts do not tell the form. by_group has two launches more, and reads
+// the extents of spans, and the blocks and lights of those that reach it, for each cluster.
 StageWork cull_lights_work(const StageCounts& c) {
     StageWork work = prefix_sum_work(c.clusters);
     const double light =

@@ -15,10 +15,10 @@ inline constexpr StageInfo kCullLightsStage = {"cull_lights", StageGroup::lists,
 
 /// Lists, for each coarse cluster, the lights whose sphere (and cone) touches the cluster's box.
 ///
-/// A stable counting sort: count by (chunk, cluster), prefix sum, fill. by_item: a work-item walks a
-/// chunk of lights. by_group: a work-group takes a cluster and a chunk. No light is ever left out:
-/// the lists have as many entries as there are pairs. enqueue() works with the room of the last
-/// frame; when that was too little, fits() grows it and the caller enqueues the frame's lists
+/// A stable counting sort: count by (chunk, cluster), prefix sum, fill. by_item: a work-item walks
+/// a chunk of lights. by_group: a work-group takes a cluster and a chunk. No light is ever left
+/// out: the lists have as many entries as there are pairs. enqueue() works with the room of the
+/// last frame; when that was too little, fits() grows it and the caller enqueues the frame's lists
 /// again.
 class CullLights {
  public:

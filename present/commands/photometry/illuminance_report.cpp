@@ -185,9 +185,8 @@ std::vector<Cell> table_row(const Illuminances& result, const LitScene& lit, std
     const MeasuringPoint& point = result.points[i];
     const glm::dvec3 &p = point.position, &n = point.normal;
     std::vector<Cell> row = {p.x, p.y, p.z, n.x, n.y, n.z};
-    each_column(result, [&](const LuxColumn& column) {
-        row.push_back(cell_of(column.value(result, i)));
-    });
+    each_column(result,
+                [&](const LuxColumn& column) { row.push_back(cell_of(column.value(result, i))); });
     add_contributors(row, result.exact_of(i), lit);
     return row;
 }
@@ -195,8 +194,7 @@ std::vector<Cell> table_row(const Illuminances& result, const LitScene& lit, std
 LuxJson point_json(const Illuminances& result, const LitScene& lit, std::size_t i) {
     const MeasuringPoint& point = result.points[i];
     const glm::dvec3 &p = point.position, &n = point.normal;
-    LuxJson out{{"position", {p.x, p.y, p.z}},
-                {"normal", {n.x, n.y, n.z}}};
+    LuxJson out{{"position", {p.x, p.y, p.z}}, {"normal", {n.x, n.y, n.z}}};
     each_column(result, [&](const LuxColumn& column) {
         out[column.key] = json_of(column.value(result, i));
     });
@@ -246,8 +244,9 @@ std::string illuminance_text(const Illuminances& result, const LitScene& lit) {
         "mean) {:.4g}\n"
         "float64     on {} points: {}\n"
         "ranges      cut off at most {:.4g} lx at a point\n",
-        result.points.size(), lit.scene.lights.size(), kModel, lux.least, lux.mean, lux.most, lux.uniformity(),
-        result.exact.size(), text_of(errors_of(result)), largest_of(result.range_loss));
+        result.points.size(), lit.scene.lights.size(), kModel, lux.least, lux.mean, lux.most,
+        lux.uniformity(), result.exact.size(), text_of(errors_of(result)),
+        largest_of(result.range_loss));
     if (result.ambient > 0.0) out += fmt::format("ambient     {:.6g} lx, apart\n", result.ambient);
     if (!result.environment.empty()) {
         out +=

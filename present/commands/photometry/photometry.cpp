@@ -134,7 +134,7 @@ std::vector<double> environment_lux(const Scene& around,
 
 // Numbers of the points that float64 computes, evenly among all.
 std::vector<std::size_t> float64_indices(const PhotometryOptions& options, std::size_t points,
-                                      double work) {
+                                         double work) {
     constexpr double kAutomaticWork = 3e7;  // about a second on two cores
     const double automatic = std::max(1.0, kAutomaticWork / work);
     const double asked =
