@@ -39,8 +39,8 @@ std::vector<double> plane_numbers(const std::string& option, std::string_view te
 bool is_near_enough(const glm::dvec3& point) { return glm::length(point) < kFarthestPoint; }
 
 std::string far_point(const glm::dvec3& p) {
-    return fmt::format("has a point at {},{},{}, must be nearer than {} m to the origin", p.x, p.y,
-                       p.z, kFarthestPoint);
+    return fmt::format("has a point at {:g},{:g},{:g}, must be nearer than {:g} m to the origin",
+                       p.x, p.y, p.z, kFarthestPoint);
 }
 
 // Whether a line has names of columns instead of a point.
