@@ -71,7 +71,7 @@ void each_column(const Illuminances& result, const auto& call) {
     }
 }
 
-LuxJson json_of(const LuxValue& value) { return value ? LuxJson(*value) : LuxJson(); }
+LuxJson lux_json(const LuxValue& value) { return value ? LuxJson(*value) : LuxJson(); }
 
 // "17 point", or "17 point 'lamp'" with the name of its photometric file.
 std::string light_name(const LitScene& lit, std::size_t index) {
@@ -122,7 +122,7 @@ KernelErrors errors_of(const Illuminances& result) {
     return out;
 }
 
-std::string text_of(const KernelErrors& errors) {
+std::string errors_text(const KernelErrors& errors) {
     if (!errors.lux) return "kernels are not compared";
     std::string out = "kernels differ by ";
     if (errors.relative) out += fmt::format("{:.2g} relative, ", *errors.relative);
@@ -151,8 +151,8 @@ LuxJson summary_json(const Illuminances& result, const LitScene& lit) {
                 {"ambient_apart_lx", result.ambient},
                 {"environment_apart_at_most_lx", largest_of(result.environment)}};
     out["float64"] = {{"points", result.exact.size()},
-                      {"largest_relative_error_of_kernels", json_of(errors.relative)},
-                      {"largest_error_of_kernels_lx", json_of(errors.lux)},
+                      {"largest_relative_error_of_kernels", lux_json(errors.relative)},
+                      {"largest_error_of_kernels_lx", lux_json(errors.lux)},
                       {"lit_by_one", errors.lit_by_one}};
     out["model"] = kModel;
     return out;
@@ -196,7 +196,7 @@ LuxJson point_json(const Illuminances& result, const LitScene& lit, std::size_t 
     const glm::dvec3 &p = point.position, &n = point.normal;
     LuxJson out{{"position", {p.x, p.y, p.z}}, {"normal", {n.x, n.y, n.z}}};
     each_column(result, [&](const LuxColumn& column) {
-        out[column.key] = json_of(column.value(result, i));
+        out[column.key] = lux_json(column.value(result, i));
     });
     const ExactIlluminance* exact = result.exact_of(i);
     out["largest"] = LuxJson::array();
@@ -245,7 +245,7 @@ std::string illuminance_text(const Illuminances& result, const LitScene& lit) {
         "float64     on {} points: {}\n"
         "ranges      cut off at most {:.4g} lx at a point\n",
         result.points.size(), lit.scene.lights.size(), kModel, lux.least, lux.mean, lux.most,
-        lux.uniformity(), result.exact.size(), text_of(errors_of(result)),
+        lux.uniformity(), result.exact.size(), errors_text(errors_of(result)),
         largest_of(result.range_loss));
     if (result.ambient > 0.0) out += fmt::format("ambient     {:.6g} lx, apart\n", result.ambient);
     if (!result.environment.empty()) {
