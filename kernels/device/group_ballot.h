@@ -3,7 +3,7 @@
 #ifndef KILOLUX_DEVICE_GROUP_BALLOT_H
 #define KILOLUX_DEVICE_GROUP_BALLOT_H
 
-// Words that hold `flags` flags, three times: see group_ballot().
+// Words of three ballots of `flags` bits.
 #define BALLOT_WORDS(flags) (3 * (((flags) + 31) / 32))
 
 typedef struct GroupBallot {
@@ -18,9 +18,9 @@ static inline void clear_ballots(uint flags, uint group, local uint* ballots) {
 }
 
 // flag: the work-item's, 0 or 1. ballots: [BALLOT_WORDS(group)]. turn: of the calls, ascending. All
-// work-items of the group must come here. One barrier suffices: words that this turn counts are
-// cleared in the next one, and set again in the third. The flag comes back from local memory, since
-// PoCL 3.1 may lose a value that a branch made before a barrier.
+// work-items of the group must come here. Turn t clears the words of turn t-1. Turn t+2 sets them
+// again. So one barrier suffices. The flag comes back from local memory, since PoCL 3.1 may lose a
+// value that a branch made before a barrier.
 static inline GroupBallot group_ballot(uint flag, uint group, uint turn, local uint* ballots) {
     uint bit = get_local_id(0), words = BALLOT_WORDS(group) / 3u;
     local uint* mine = ballots + turn % 3u * words;

@@ -8,9 +8,8 @@
 #include "kernels/device/group_ballot.h"
 #include "kernels/lists/cull_lights.h"
 
-#define BLOCK 32u                   // lights of a block
-#define SPAN 64u                    // blocks of a span
-#define SPAN_LIGHTS (BLOCK * SPAN)  // kLightsOfSpan of cull_lights.cpp
+// The host defines BLOCK, the lights of a block, and SPAN, the blocks of a span.
+#define SPAN_LIGHTS (BLOCK * SPAN)
 
 static inline LightExtent empty_extent(void) {
     LightExtent e = {1u, 1u, 1u, 0u};  // from 1 to 0

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a light reaches, and where its shadow rays go. Lists and shadows ask this text alone: a
-// kind that does not fill the sphere of its range, or has a size, has its case here. Lists ask
-// cone_reaches() only where the scene has SceneFeatures::spot_lights.
+// Where a light reaches, and where its shadow rays go. Only this header decides which points a
+// light reaches. A kind that does not fill the sphere of its range, or has a size, has its case
+// here. Lists ask cone_reaches() only where the scene has SceneFeatures::spot_lights.
 #ifndef KILOLUX_DEVICE_LIGHT_REACH_H
 #define KILOLUX_DEVICE_LIGHT_REACH_H
 #include "kernels/shared/cluster_grid.h"
@@ -27,9 +27,9 @@ static inline bool sphere_reaches(float dx, float dy, float dz, float inv_range2
     return fma(dz, dz, fma(dy, dy, dx * dx)) * inv_range2 <= CULL_LIMIT;
 }
 
-// A spot's cone against a box: false only if no point of the box is inside. What is behind the
-// apex is told by the box's corners, so that the half-space before a flat light is tested exactly;
-// else the box's bounding sphere is tested by the distance from its centre to the cone's surface.
+// A spot's cone against a box: false only if no point of the box is inside. The corners decide
+// whether the box is behind the apex, so that the half-space before a flat light is tested exactly.
+// Else the box's bounding sphere is tested by the distance from its centre to the cone's surface.
 // The nearest point of that surface lies on it wherever the centre is outside: of cones narrower
 // than 90 degrees that holds in front of their apex, of wider ones everywhere.
 static inline bool cone_reaches(ShadeLight light, float3 lo, float3 hi) {
@@ -44,9 +44,9 @@ static inline bool cone_reaches(ShadeLight light, float3 lo, float3 hi) {
     float cos_out = light.axis_cos.w;
     float sin_out = sqrt(max(1.0f - cos_out * cos_out, 0.0f));
     float slack = 1e-3f * (radius + sqrt(q2));  // more than float32 loses here
-    // A selection, not a branch: PoCL 3.1 loses values across cull_lights' barriers otherwise.
     // The corner farthest along the axis; 1e-5: more than the dot products lose.
     float corner = fma(1e-5f, radius + sqrt(q2), dot(half_size, fabs(light.axis_cos.xyz)));
+    // A selection, not a branch: PoCL 3.1 loses values across cull_lights' barriers otherwise.
     float back = cos_out < 0.0f ? -1e30f : -corner;
     return cos_out * across - sin_out * along <= radius + slack && along >= back;
 }

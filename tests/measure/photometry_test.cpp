@@ -276,15 +276,15 @@ TEST(Photometry, WhatRangesCutOffIsBounded) {
     Scene unbounded = scene;
     for (SceneLight& light : unbounded.lights) light.range = 0.0f;
     const std::vector<MeasuringPoint> points = scattered_points(1000);
-    const std::vector<double> bounds = cut_off_bounds(scene, points, order_in_groups(points));
+    const std::vector<double> bounds = range_loss_bounds(scene, points, order_in_groups(points));
     const ExactLighting ranged(scene), all(unbounded);
     for (std::size_t i = 0; i < points.size(); ++i) {
         const ExactIlluminance at = ranged.at(points[i]);
         const double whole = all.at(points[i]).lux;
-        ASSERT_NEAR(at.lux + at.cut_off, whole, 1e-10 * whole) << i;
-        ASSERT_LE(at.cut_off, bounds[i]) << i;
+        ASSERT_NEAR(at.lux + at.range_loss, whole, 1e-10 * whole) << i;
+        ASSERT_LE(at.range_loss, bounds[i]) << i;
     }
-    EXPECT_EQ(cut_off_bounds(unbounded, points, order_in_groups(points)),
+    EXPECT_EQ(range_loss_bounds(unbounded, points, order_in_groups(points)),
               std::vector<double>(points.size(), 0.0));
 }
 
@@ -295,9 +295,37 @@ TEST(Photometry, TheBoundOfALightAheadIsExact) {
         scene.lights[0].range = range;
         const std::vector<MeasuringPoint> point(1);
         const double part = std::min(std::pow(2.0 / range, 4.0), 1.0);
-        EXPECT_NEAR(ExactLighting(scene).at(point[0]).cut_off, 25.0 * part, 1e-12);
-        EXPECT_NEAR(cut_off_bounds(scene, point, order_in_groups(point))[0], 25.0 * part, 1e-12);
+        EXPECT_NEAR(ExactLighting(scene).at(point[0]).range_loss, 25.0 * part, 1e-12);
+        EXPECT_NEAR(range_loss_bounds(scene, point, order_in_groups(point))[0], 25.0 * part, 1e-12);
     }
+}
+
+TEST(Photometry, ALightAtThePointLosesNothing) {
+    Scene scene = scene_of({point_light({0, 2, 0}, 100.0f)});
+    scene.lights[0].range = 5.0f;
+    const std::vector<MeasuringPoint> point = {{{0, 2, 0}, {0, 1, 0}}};
+    EXPECT_EQ(range_loss_bounds(scene, point, order_in_groups(point))[0], 0.0);
+}
+
+// From under the end of a tube on, points of one group: what its range takes away is largest at the
+// nearest ones, since the tube is wide for them.
+TEST(Photometry, WhatTheRangeOfATubeCutsOffIsBounded) {
+    SceneLight tube = point_light({0, 2, 0}, 1000.0f);
+    tube.type = LightType::rectangle;
+    tube.direction = {0, -1, 0};
+    tube.side = {1, 0, 0};
+    tube.width = 1.2f;
+    tube.height = 0.01f;
+    tube.range = 5.0f;
+    const Scene scene = scene_of({tube});
+    std::vector<MeasuringPoint> points;
+    for (int i = 0; i < 60; ++i) points.push_back({{0.6 + 0.01 * i, 1.99, 0}, {0, 1, 0}});
+    const std::vector<double> bounds = range_loss_bounds(scene, points, order_in_groups(points));
+    const ExactLighting exact(scene);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        EXPECT_LE(exact.at(points[i]).range_loss, bounds[i]) << i;
+    }
+    EXPECT_LE(bounds[0], 100.0);
 }
 
 TEST(Photometry, TheLargestContributorsComeFirst) {

@@ -239,6 +239,14 @@ TEST(IesFile, LumensOfTheLampsAreStated) {
     EXPECT_DOUBLE_EQ(read_photometric_web(text, "").stated_lumens.value(), 1080.0);
 }
 
+TEST(IesFile, AByteOrderMarkIsLeftOut) {
+    // By its first line this edition has no second ballast factor.
+    const std::string text = ies_text({.second_ballast = 2});
+    const PhotometricWeb web = read_photometric_web("\xef\xbb\xbf" + text, "");
+    EXPECT_EQ(web.text, text);
+    EXPECT_DOUBLE_EQ(web.peak, 100.0);
+}
+
 TEST(IesFile, WhatCannotBeUsedIsRefusedInALine) {
     EXPECT_EQ(
         refusal(""),

@@ -108,6 +108,13 @@ TEST(LdtFile, ItsTextIsAnIesFile) {
     EXPECT_EQ(again.text, web.text);
 }
 
+TEST(LdtFile, AMakersNameMayBeginAsIesFilesDo) {
+    const std::string text = ldt_text({});
+    std::string named = text;
+    named.replace(named.find("Maker"), 5, "IESA Leuchten");
+    EXPECT_EQ(read_photometric_web(named, "").candela, read_photometric_web(text, "").candela);
+}
+
 TEST(LdtFile, WhatCannotBeUsedIsRefusedInALine) {
     expect_ldt_refused({.symmetry = 3, .c = {0, 120, 240}}, "3 C-planes are no multiple of 4");
     expect_ldt_refused({.symmetry = 2, .c = {0, 90, 170, 270}},
@@ -119,8 +126,10 @@ TEST(LdtFile, WhatCannotBeUsedIsRefusedInALine) {
     expect_ldt_refused({.c = {10, 90, 180, 270}}, "C-plane 1 is at 10, must be at 0");
     expect_ldt_refused({.c = {0, 90, 180}}, "the last of 3 C-planes is at 180, which leaves a gap");
     expect_ldt_refused({.c = {0, 90, 180, 400}}, "C-planes are from 0 to 400");
-    expect_ldt_refused({.c = {0, 90, 90, 270}}, "C-planes must rise, 90 follows 90");
+    expect_ldt_refused({.c = {0, 90, 90, 270}}, "line 45: C-planes must rise, 90 follows 90");
     expect_ldt_refused({.gamma = {0, 45, 80}}, "vertical angles are from 0 to 80");
+    expect_ldt_refused({.gamma = {0, 60, 50, 90}},
+                       "line 49: gamma angles must rise, 50 follows 60");
     expect_ldt_refused({.gamma = {0}}, "line 6: the number of gamma angles is 1");
     expect_ldt_refused({.lumens = 0}, "line 29: the lamps' luminous flux is 0");
     expect_ldt_refused({.lumens = 1e300, .conversion = 1e300}, "the largest intensity is inf");

@@ -32,7 +32,7 @@ std::string read_text(const std::filesystem::path& file) {
         text.append(piece, 0, static_cast<std::size_t>(in.gcount()));
     }
     if (text.size() > kMostBytes) {
-        throw Error(file.string() + ": cannot read: is larger than 256 MiB, which no text file is");
+        throw Error(file.string() + ": cannot read: is larger than 256 MiB, the most that is read");
     }
     if (in.bad() || !in.eof()) {
         throw Error(file.string() + ": cannot read: " + std::strerror(errno));

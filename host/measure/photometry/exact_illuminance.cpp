@@ -44,7 +44,7 @@ Distances distances_to(const Box& box, const glm::dvec3& p) {
     return {glm::length(outside), glm::length(across)};
 }
 
-// A light whose range cuts something off.
+// A light with a range.
 struct BoundedLight {
     glm::dvec3 position{0.0};
     double candela = 0.0, range = 0.0;
@@ -52,15 +52,21 @@ struct BoundedLight {
     double most = std::numeric_limits<double>::infinity();  // of its illuminance [lx]
 };
 
-// The most that the range cuts off at these distances. (d/range)^4 / d^2 grows up to the range, 1 /
-// d^2 falls beyond it.
-double largest_cut_off(const BoundedLight& light, const Distances& d) {
-    const double at = d.greatest < light.range ? d.greatest : std::max(d.least, light.range);
-    const double part = std::min(at / light.range, 1.0);
-    const double nearest = at - light.radius;
-    const double lux =
-        nearest > 0.0 ? std::min(light.candela / (nearest * nearest), light.most) : light.most;
-    return part * part * part * part * lux;
+// At most what the range takes away at a distance from the light's middle. Points of the light may
+// be nearer by its radius.
+double loss_at(const BoundedLight& light, double distance) {
+    const double share = std::min(std::pow(distance / light.range, 4.0), 1.0);
+    if (share == 0.0) return 0.0;
+    const double nearest = std::max(distance - light.radius, 0.0);
+    return share * std::min(light.candela / (nearest * nearest), light.most);
+}
+
+// The most of loss_at() at these distances x. With r the radius it grows while `most` limits it,
+// falls up to 2 r as x^4 / (x - r)^2 does, grows up to the range, and falls beyond.
+double largest_loss(const BoundedLight& light, const Distances& d) {
+    const double limited = light.radius + std::sqrt(light.candela / light.most);
+    return std::max(loss_at(light, std::clamp(limited, d.least, d.greatest)),
+                    loss_at(light, std::clamp(light.range, d.least, d.greatest)));
 }
 
 std::vector<BoundedLight> bounded_lights(const Scene& scene) {
@@ -90,13 +96,13 @@ ExactLighting::ExactLighting(const Scene& scene)
 
 ExactIlluminance ExactLighting::at(const MeasuringPoint& point) const {
     ExactIlluminance out;
-    CompensatedSum lux, cut_off;
+    CompensatedSum lux, range_loss;
     ReferenceOptions unbounded = options_;
     unbounded.windowed = false;
     const auto add = [&](std::size_t light, double whole, double window) {
         if (whole == 0.0) return;
         lux.add(whole * window);
-        cut_off.add(whole * (1.0 - window));
+        range_loss.add(whole * (1.0 - window));
         keep_largest(out.largest, {light, whole * window});
     };
     for (std::size_t i = 0; i < lights_.directional.size(); ++i) {
@@ -110,7 +116,7 @@ ExactIlluminance ExactLighting::at(const MeasuringPoint& point) const {
         add(placed_[i], unbounded_lux(light, point, unbounded), window);
     }
     out.lux = lux.value();
-    out.cut_off = cut_off.value();
+    out.range_loss = range_loss.value();
     return out;
 }
 
@@ -140,23 +146,25 @@ std::vector<ExactIlluminance> exact_illuminance(const ExactLighting& lighting,
     return out;
 }
 
-std::vector<double> cut_off_bounds(const Scene& scene, std::span<const MeasuringPoint> points,
-                                   std::span<const std::uint32_t> order) {
+std::vector<double> range_loss_bounds(const Scene& scene, std::span<const MeasuringPoint> points,
+                                      std::span<const std::uint32_t> order,
+                                      const OnProgress& progress) {
     std::vector<double> out(points.size(), 0.0);
     const std::vector<BoundedLight> lights = bounded_lights(scene);
     if (lights.empty()) return out;
     const auto groups = static_cast<int>((order.size() + kGroupPoints - 1) / kGroupPoints);
-    parallel_rows(groups, [&](int group) {
+    const auto bound_group = [&](int group) {
         const std::size_t first = static_cast<std::size_t>(group) * kGroupPoints;
         const auto mine = order.subspan(first, std::min(kGroupPoints, order.size() - first));
         Box box;
         for (const std::uint32_t i : mine) box.add(points[i].position);
         double sum = 0.0;
         for (const BoundedLight& light : lights) {
-            sum += largest_cut_off(light, distances_to(box, light.position));
+            sum += largest_loss(light, distances_to(box, light.position));
         }
         for (const std::uint32_t i : mine) out[i] = sum;
-    });
+    };
+    parallel_rows(groups, bound_group, progress);
     return out;
 }
 

@@ -21,7 +21,7 @@ struct LightLux {
 /// The illuminance of a point in float64.
 struct ExactIlluminance {
     double lux = 0.0;                   // of all lights, each with the window of its range
-    double cut_off = 0.0;               // what the windows take away [lx]
+    double range_loss = 0.0;            // what the windows take away [lx]
     std::array<LightLux, 3> largest{};  // contributors, the largest first
 };
 
@@ -42,7 +42,7 @@ class ExactLighting {
 
     ExactIlluminance at(const MeasuringPoint& point) const;
 
-    /// Points times this is the work of at(), in lights without a size.
+    /// Cost of at() for one point. The unit is one point light.
     double work() const;
 
  private:
@@ -57,10 +57,12 @@ std::vector<ExactIlluminance> exact_illuminance(const ExactLighting& lighting,
                                                 std::span<const std::size_t> which,
                                                 const OnProgress& progress = {});
 
-/// For each point an upper bound of what the ranges of the scene's lights cut off there [lx]: of a
-/// light at distance d, intensity / d^2 times the share that its window takes, at the worst place
-/// of the point's group. `order`: order_in_groups() of the points.
-std::vector<double> cut_off_bounds(const Scene& scene, std::span<const MeasuringPoint> points,
-                                   std::span<const std::uint32_t> order);
+/// For each point an upper bound of what the ranges of the scene's lights take away there [lx]: of
+/// a light whose nearest point is at distance d, intensity / d^2 (with a size at most pi *
+/// luminance) times the share that its window takes, at the worst place of the point's group.
+/// `order`: order_in_groups() of the points.
+std::vector<double> range_loss_bounds(const Scene& scene, std::span<const MeasuringPoint> points,
+                                      std::span<const std::uint32_t> order,
+                                      const OnProgress& progress = {});
 
 }  // namespace kilolux

@@ -15,6 +15,10 @@ struct MeasuringPoint {
     bool operator==(const MeasuringPoint&) const = default;
 };
 
+/// Points and lights are nearer than this to the origin: squares of greater distances leave the
+/// range of the kernels' tests (host/render/lights/light_rows.cpp) [m].
+inline constexpr double kFarthestPoint = 1e15;
+
 /// Points of a group: the pixels of a fine tile.
 inline constexpr std::size_t kGroupPoints = 256;
 

@@ -5,9 +5,11 @@
 #include <numbers>
 
 #include "host/base/formats/gbuffer_layout.h"
+#include "host/base/system/interrupt.h"
 #include "host/measure/metrics/rgb_image.h"
 #include "host/render/plan/kernel_choice.h"
 #include "host/render/plan/scene_plan.h"
+#include "host/scene/lights/light_kinds.h"
 
 namespace kilolux {
 namespace {
@@ -30,15 +32,12 @@ RenderSettings light_settings(RenderSettings settings) {
     return settings;
 }
 
-// Those of the scene's lights alone.
+// Kernel features that lights need; materials are left out.
 KernelFeatures point_features(const Scene& scene, const RenderSettings& settings) {
     KernelFeatures out = make_scene_plan(scene, settings, scene.lights.size()).kernels;
     const SceneFeatures all = out;
     static_cast<SceneFeatures&>(out) = SceneFeatures();
-    out.point_lights = all.point_lights;
-    out.spot_lights = all.spot_lights;
-    out.directional_lights = all.directional_lights;
-    out.area_lights = all.area_lights;
+    for (const LightKind& kind : kLightKinds) out.*kind.feature = all.*kind.feature;
     out.light_profiles = all.light_profiles;
     out.wide_light_index = all.wide_light_index;
     out.light_d_min = all.light_d_min;
@@ -59,9 +58,9 @@ Camera camera_around(const Box& box) {
 }
 
 // The planes of a frame's points: point i is pixel i of the tiles one after the other.
-class PointPlanes {
+class PointGBuffer {
  public:
-    PointPlanes(const View& view, const KernelFeatures& features)
+    PointGBuffer(const View& view, const KernelFeatures& features)
         : view_(view),
           layout_(full_gbuffer_layout(features, view.stride, view.height)),
           bytes_(gbuffer_bytes(layout_, view.stride, view.height)) {}
@@ -116,6 +115,7 @@ std::vector<double> PointLighting::illuminance(std::span<const MeasuringPoint> p
                                                std::span<const std::uint32_t> order) {
     std::vector<double> out(points.size(), 0.0);
     for (std::size_t first = 0; first < order.size(); first += kFramePoints) {
+        check_interrupt();
         light_frame(points, order.subspan(first, std::min(kFramePoints, order.size() - first)),
                     out);
     }
@@ -132,7 +132,7 @@ void PointLighting::light_frame(std::span<const MeasuringPoint> points,
     const uint down = (tiles + across - 1) / across;
     const View view =
         view_of(camera, static_cast<int>(across * FINE_TILE), static_cast<int>(down * FINE_TILE));
-    PointPlanes planes(view, features_);
+    PointGBuffer planes(view, features_);
     for (std::size_t i = 0; i < frame.size(); ++i) {
         planes.put(i, points[frame[i]], camera.position);
     }

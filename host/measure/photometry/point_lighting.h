@@ -23,7 +23,7 @@ class PointLighting {
     PointLighting(const Scene& scene, const RenderSettings& settings);
 
     /// The illuminance of each point [lx]. `order`: order_in_groups() of the points. Positions are
-    /// float32 relative to the middle of a frame's points.
+    /// float32 relative to the middle of a frame's points. Calls check_interrupt().
     std::vector<double> illuminance(std::span<const MeasuringPoint> points,
                                     std::span<const std::uint32_t> order);
 

@@ -10,8 +10,9 @@ constexpr std::string_view kBruteForce = "cull_lights_brute_force";
 // Initial room: enough for most scenes' first frame.
 constexpr std::size_t kFirstCoarseEntries = std::size_t{1} << 20;
 
-// Of kernels/lists/cull_lights_by_group.cl.
-constexpr std::size_t kBlocksOfSpan = 64, kLightsOfSpan = 32 * kBlocksOfSpan;
+// BLOCK and SPAN of kernels/lists/cull_lights_by_group.cl.
+constexpr std::size_t kLightsOfBlock = 32, kBlocksOfSpan = 64;
+constexpr std::size_t kLightsOfSpan = kLightsOfBlock * kBlocksOfSpan;
 // Work-groups then have even shares.
 constexpr std::size_t kMostChunksOfCluster = 32;
 // NVIDIA H100, a million lights: 8, 16, 32 take 0.90, 0.61, 0.56 ms.
@@ -28,6 +29,8 @@ std::string_view program_name(const Tuning& tuning) {
 BuildOptions cull_options(const Tuning& tuning, const KernelFeatures& features) {
     return BuildOptions()
         .define("GROUP", tuning.cull_group)
+        .define("BLOCK", kLightsOfBlock)
+        .define("SPAN", kBlocksOfSpan)
         .define("HAS_SPOT_LIGHTS", features.spot_lights)
         .define("LIGHT_INDEX", light_index_type(features));
 }
@@ -49,8 +52,8 @@ CullLights::CullLights(const Gpu& gpu, const Tuning& tuning, const KernelFeature
 }
 
 CullLights::Blocks::Blocks(const Gpu& gpu, const KernelProgram& program)
-    : find_extents(gpu, program, kCullLightsStage, "cull_lights_blocks"),
-      find_clusters(gpu, program, kCullLightsStage, "cull_lights_clusters"),
+    : cull_blocks(gpu, program, kCullLightsStage, "cull_lights_blocks"),
+      cull_clusters(gpu, program, kCullLightsStage, "cull_lights_clusters"),
       blocks(gpu, kCullLightsStage),
       spans(gpu, kCullLightsStage),
       work_count(gpu, kCullLightsStage),
@@ -63,7 +66,7 @@ std::size_t CullLights::chunk_count(std::size_t lights) const {
     return std::clamp<std::size_t>(lights, 1, static_cast<std::size_t>(tuning_.cull_chunks));
 }
 
-// Of kernels/lists/cull_lights.cl: as many vectors of lanes as hold a chunk's clusters.
+// Of kernels/lists/cull_lights.h: as many vectors of lanes as hold a chunk's clusters.
 std::size_t CullLights::cursor_stride(const ClusterGrid& grid) const {
     return round_up(grid.cluster_count, offset_.lanes());
 }
@@ -103,15 +106,15 @@ CoarseLists CullLights::enqueue(const PreparedLights& lights, const ClusterBoxes
     const std::size_t spans = span_count(lights.count);
     const auto chunks_of_cluster = static_cast<uint>(chunks);
     Blocks& by = *blocks_;
-    by.find_extents.enqueue(groups(spans, tuning_.cull_group), timer, lights,
-                            by.blocks.reserve(4 * spans * kBlocksOfSpan),
-                            by.spans.reserve(2 * spans), by.work_count.get());
+    by.cull_blocks.enqueue(groups(spans, tuning_.cull_group), timer, lights,
+                           by.blocks.reserve(2 * spans * kBlocksOfSpan), by.spans.reserve(spans),
+                           by.work_count.get());
     const DeviceArray<uint> work = by.work.reserve(grid.cluster_count);
     const WorkSize size = groups(groups_, tuning_.cull_group);
     return sort_pairs(
         grid, chunks, timer,
         [&](const auto& cursors) {
-            by.find_clusters.enqueue(items(grid.cluster_count, tuning_.light_group), timer,
+            by.cull_clusters.enqueue(items(grid.cluster_count, tuning_.light_group), timer,
                                      grid.cluster_count, chunks_of_cluster, occupied, cursors,
                                      by.work_count.get(), work);
             count_.enqueue(size, timer, lights, boxes, by, chunks_of_cluster, cursors);
@@ -137,7 +140,9 @@ CoarseLists CullLights::brute_force(const PreparedLights& lights, const ClusterB
     return out;
 }
 
-// Counting and filling read the lights once each; then a cursor, an offset and a total a cluster.
+// Of the form by_item: counting and filling read the lights once each; then a cursor, an offset and
+// a total a cluster. StageCounts do not tell the form. by_group has two launches more, and reads
+// the extents of spans, and the blocks and lights of those that reach it, for each cluster.
 StageWork cull_lights_work(const StageCounts& c) {
     StageWork work = prefix_sum_work(c.clusters);
     const double light =

@@ -15,10 +15,10 @@ inline constexpr StageInfo kCullLightsStage = {"cull_lights", StageGroup::lists,
 
 /// Lists, for each coarse cluster, the lights whose sphere (and cone) touches the cluster's box.
 ///
-/// A stable counting sort: count by (chunk, cluster), prefix sum, fill. Work-items alone walk the
-/// lights, work-groups the clusters: see kernels/lists/cull_lights.h. No light is ever left out:
-/// the lists have as many entries as there are pairs. enqueue() works with the room of the last
-/// frame; when that was too little, fits() grows it and the caller enqueues the frame's lists
+/// A stable counting sort: count by (chunk, cluster), prefix sum, fill. by_item: a work-item walks
+/// a chunk of lights. by_group: a work-group takes a cluster and a chunk. No light is ever left
+/// out: the lists have as many entries as there are pairs. enqueue() works with the room of the
+/// last frame; when that was too little, fits() grows it and the caller enqueues the frame's lists
 /// again.
 class CullLights {
  public:
@@ -57,7 +57,7 @@ class CullLights {
     // What work-groups skip by, and the clusters that they take.
     struct Blocks {
         Blocks(const Gpu& gpu, const KernelProgram& program);
-        Kernel find_extents, find_clusters;
+        Kernel cull_blocks, cull_clusters;
         GrowingArray<LightExtent> blocks, spans;
         GrowingArray<uint> work_count, work;
 

@@ -32,15 +32,26 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-std::string result_file(const std::string&, const std::string& text) {
-    const std::string extension = lower(fs::path(text).extension().string());
-    if (extension == ".csv" || extension == ".json") return text;
-    throw UsageError(
-        fmt::format("--output: '{}': result type '{}' is none of .csv, .json", text, extension));
+// Of long work on all cores.
+void stop_if_interrupted(double) { check_interrupt(); }
+
+enum class ResultFormat { csv, json };
+
+ResultFormat result_format(const fs::path& file) {
+    const std::string extension = lower(file.extension().string());
+    if (extension == ".csv") return ResultFormat::csv;
+    if (extension == ".json") return ResultFormat::json;
+    throw UsageError(fmt::format("--output: '{}': result type '{}' is none of .csv, .json",
+                                 file.string(), extension));
 }
 
-// What would not be in the result, and what would be in it unasked.
-void check_photometry(PhotometryOptions& options) {
+std::string result_file(const std::string&, const std::string& text) {
+    result_format(text);
+    return text;
+}
+
+// Refuses options that photometry ignores. Turns the automatic rig off where the scene has lights.
+void settle_options(PhotometryOptions& options) {
     SharedOptions& shared = options.shared;
     refuse_if(options.points.empty() == (options.plane.columns == 0),
               "photometry: needs one of --points FILE.csv and --plane");
@@ -56,23 +67,27 @@ void check_photometry(PhotometryOptions& options) {
     }
 }
 
-// Leaves out lights that cannot be used.
-void keep_usable(std::vector<SceneLight>& lights, const std::string& scene) {
+// Leaves out lights that cannot be used; returns the others' numbers.
+std::vector<std::size_t> keep_usable(std::vector<SceneLight>& lights, const std::string& scene) {
     std::vector<SceneLight> ranged = lights;
     fill_missing_ranges(ranged, Tails::exact);
     std::vector<SceneLight> kept;
+    std::vector<std::size_t> numbers;
     for (std::size_t i = 0; i < lights.size(); ++i) {
-        if (is_usable(ranged[i], glm::dvec3(0.0))) kept.push_back(lights[i]);
+        if (!is_usable(ranged[i], glm::dvec3(0.0))) continue;
+        kept.push_back(lights[i]);
+        numbers.push_back(i);
     }
     if (kept.size() < lights.size()) {
         warn(
             fmt::format("{}: {} unusable lights are left out", scene, lights.size() - kept.size()));
     }
     lights = std::move(kept);
+    return numbers;
 }
 
 // The scene at its time with all of its lights, in the world.
-Scene lit_scene(SharedOptions& shared) {
+LitScene lit_scene(SharedOptions& shared) {
     Scene scene = open_scene(shared);
     const Camera camera = choose_camera(shared, scene);
     const auto generated = generate_lights(shared.settings.lights, scene, shared.time);
@@ -81,33 +96,45 @@ Scene lit_scene(SharedOptions& shared) {
         light = placed_light(light, camera.world_from_view, camera.position);
         light.follows_camera = false;
     }
-    keep_usable(scene.lights, shared.scene);
-    return scene;
+    std::vector<std::size_t> numbers = keep_usable(scene.lights, shared.scene);
+    return {std::move(scene), std::move(numbers)};
 }
 
-// The light of the environment's map on each point [lx], as that of directional lights.
-std::vector<double> environment_lux(const SharedOptions& shared, const std::string& environment,
+// Takes the environment's light out of the options, as directional lights: it is counted apart, not
+// among the scene's.
+Scene take_environment(SharedOptions& shared) {
+    Scene out;
+    const std::string environment = std::exchange(shared.environment, "");
+    if (environment.empty()) return out;
+    out.lights = environment_lights(environment_of(environment, shared.settings.max_memory_bytes),
+                                    static_cast<std::size_t>(shared.environment_lights));
+    // As in a picture: where something else lights, emissive surfaces do when they are asked to.
+    if (!out.lights.empty() && shared.emissive_lights == EmissiveLights::automatic) {
+        shared.emissive_lights = EmissiveLights::off;
+    }
+    return out;
+}
+
+// The environment's light on each point [lx]; empty without one.
+std::vector<double> environment_lux(const Scene& around,
                                     const std::vector<MeasuringPoint>& points) {
-    if (environment.empty()) return {};
-    Scene around;
-    around.lights =
-        environment_lights(environment_of(environment, shared.settings.max_memory_bytes),
-                           static_cast<std::size_t>(shared.environment_lights));
+    if (around.lights.empty()) return {};
     const ExactLighting lighting(around);
     std::vector<double> out(points.size());
-    parallel_rows(
-        static_cast<int>((points.size() + kGroupPoints - 1) / kGroupPoints), [&](int row) {
-            const std::size_t first = static_cast<std::size_t>(row) * kGroupPoints;
-            for (std::size_t i = first; i < std::min(first + kGroupPoints, points.size()); ++i) {
-                out[i] = lighting.at(points[i]).lux;
-            }
-        });
+    const auto light_group = [&](int group) {
+        const std::size_t first = static_cast<std::size_t>(group) * kGroupPoints;
+        for (std::size_t i = first; i < std::min(first + kGroupPoints, points.size()); ++i) {
+            out[i] = lighting.at(points[i]).lux;
+        }
+    };
+    parallel_rows(static_cast<int>((points.size() + kGroupPoints - 1) / kGroupPoints), light_group,
+                  stop_if_interrupted);
     return out;
 }
 
 // Numbers of the points that float64 computes, evenly among all.
-std::vector<std::size_t> exact_places(const PhotometryOptions& options, std::size_t points,
-                                      double work) {
+std::vector<std::size_t> float64_indices(const PhotometryOptions& options, std::size_t points,
+                                         double work) {
     constexpr double kAutomaticWork = 3e7;  // about a second on two cores
     const double automatic = std::max(1.0, kAutomaticWork / work);
     const double asked =
@@ -119,7 +146,7 @@ std::vector<std::size_t> exact_places(const PhotometryOptions& options, std::siz
 }
 
 Illuminances measured(const PhotometryOptions& options, std::vector<MeasuringPoint> points,
-                      const Scene& scene, const std::string& environment) {
+                      const Scene& scene, const Scene& around) {
     Illuminances out;
     out.points = std::move(points);
     const SharedOptions& shared = options.shared;
@@ -131,42 +158,57 @@ Illuminances measured(const PhotometryOptions& options, std::vector<MeasuringPoi
     check_interrupt();
     start = std::chrono::steady_clock::now();
     const ExactLighting exact(scene);
-    out.exact_places = exact_places(options, out.points.size(), exact.work());
-    out.exact =
-        exact_illuminance(exact, out.points, out.exact_places, [](double) { check_interrupt(); });
+    out.float64_indices = float64_indices(options, out.points.size(), exact.work());
+    out.exact = exact_illuminance(exact, out.points, out.float64_indices, stop_if_interrupted);
     note(fmt::format("lit     {} points by {} in {:.2g} s, {} of them in float64 in {:.2g} s",
                      out.points.size(), kernels.device().name, kernel_s, out.exact.size(),
                      seconds_since(start)));
-    out.cut_off = cut_off_bounds(scene, out.points, order);
+    out.range_loss = range_loss_bounds(scene, out.points, order, stop_if_interrupted);
     for (std::size_t k = 0; k < out.exact.size(); ++k) {
-        out.cut_off[out.exact_places[k]] = out.exact[k].cut_off;
+        out.range_loss[out.float64_indices[k]] = out.exact[k].range_loss;
     }
-    out.environment = environment_lux(shared, environment, out.points);
+    out.environment = environment_lux(around, out.points);
     // Radiance from everywhere arrives as pi times it.
     if (shared.ambient_given) out.ambient = std::numbers::pi * double{shared.settings.ambient};
     return out;
 }
 
+// In parts: the cells of all points at once would take many times the points' memory.
+void write_csv(const fs::path& file, const Illuminances& result, const LitScene& lit) {
+    constexpr std::size_t kPart = 4096;  // points
+    AtomicFile out(file);
+    for (std::size_t first = 0; first < result.points.size(); first += kPart) {
+        check_interrupt();
+        const std::size_t end = std::min(first + kPart, result.points.size());
+        const std::string text = to_csv(illuminance_table(result, lit, first, end));
+        out.write(std::string_view(text).substr(first == 0 ? 0 : text.find('\n') + 1));
+    }
+    out.commit();
+}
+
+void write_result(const fs::path& file, const Illuminances& result, const LitScene& lit) {
+    if (result_format(file) == ResultFormat::json) {
+        write_json(file.string(), illuminance_json(result, lit));
+    } else {
+        write_csv(file, result, lit);
+    }
+}
+
 void run_photometry(PhotometryOptions& options) {
     begin_command(options.shared);
-    check_photometry(options);
+    settle_options(options);
     if (!options.output.empty()) check_can_write(options.output);
     std::vector<MeasuringPoint> points =
         options.points.empty() ? points_of(options.plane) : read_points(options.points);
-    // Its light is counted apart, not among the scene's.
-    const std::string environment = std::exchange(options.shared.environment, "");
-    const Scene scene = lit_scene(options.shared);
-    if (scene.lights.empty() && environment.empty()) {
+    const Scene around = take_environment(options.shared);
+    const LitScene lit = lit_scene(options.shared);
+    if (lit.scene.lights.empty() && around.lights.empty()) {
         throw Error(options.shared.scene + ": has no lights to measure; --lights N adds some");
     }
-    const Illuminances result = measured(options, std::move(points), scene, environment);
-    if (options.output.extension() == ".json") {
-        write_json(options.output.string(), illuminance_json(result, scene));
-    } else if (!options.output.empty()) {
-        write_atomically(options.output, to_csv(illuminance_table(result, scene)));
-    }
-    const auto document = options.json ? illuminance_json(result, scene) : nlohmann::ordered_json();
-    print_result(options.json, document, illuminance_text(result, scene));
+    const Illuminances result = measured(options, std::move(points), lit.scene, around);
+    if (!options.output.empty()) write_result(options.output, result, lit);
+    const auto document = options.json ? illuminance_json(result, lit) : nlohmann::ordered_json();
+    print_result(options.json, document, illuminance_text(result, lit));
     if (!options.output.empty()) note("wrote   " + options.output.string());
 }
 
@@ -183,13 +225,9 @@ void visit_settings(PhotometryOptions& options, const SettingVisitor& f) {
         .input_file(
             {"--points", "FILE", "",
              "CSV with a point a line: x,y,z,nx,ny,nz, position in metres and the normal of "
-             "the surface that is lit; a first line of names is left out"},
+             "the surface that is lit; a first line of these names is left out"},
             options.points)
-        .value({"--plane", "NUMBERS", "",
-                "X0,Z0,X1,Z1,Y,NX,NZ: the middles of NX x NZ cells of a horizontal plane at height "
-                "Y, facing up; or X,Y,Z,UX,UY,UZ,VX,VY,VZ,NU,NV: an origin and two edges, facing U "
-                "x V"},
-               options.plane, parse_plane)
+        .value({"--plane", "NUMBERS", "", kPlaneSyntax}, options.plane, parse_plane)
         .count({"--exact-points", "N", "a second's work",
                 "Points that float64 computes, too, evenly among all: their error of the kernels "
                 "and their largest contributors are known",

@@ -12,7 +12,7 @@ namespace kilolux {
 struct PhotometryOptions {
     SharedOptions shared;
     std::filesystem::path points;  // CSV; empty: `plane`
-    PointPlane plane;
+    MeasuringGrid plane;
     std::optional<std::uint64_t> exact_points;  // most that float64 computes; none: automatic
     std::filesystem::path output;               // .csv or .json; empty: standard output alone
     bool json = false;

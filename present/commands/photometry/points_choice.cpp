@@ -5,7 +5,9 @@
 
 #include <cmath>
 #include <optional>
+#include <utility>
 
+#include "host/base/byte_order_mark.h"
 #include "host/base/error.h"
 #include "host/base/system/read_text.h"
 #include "host/base/text.h"
@@ -13,7 +15,7 @@
 namespace kilolux {
 namespace {
 
-constexpr double kMostPoints = 134217728.0;  // 2^27: 20 GB
+constexpr double kMostPoints = 134217728.0;  // 2^27: 10 GB, of JSON a multiple
 constexpr std::string_view kPointColumns = "x,y,z,nx,ny,nz";
 
 [[noreturn]] void refuse_plane(const std::string& option, std::string_view text,
@@ -33,6 +35,31 @@ std::vector<double> plane_numbers(const std::string& option, std::string_view te
     return out;
 }
 
+// False for what is not finite, too.
+bool is_near_enough(const glm::dvec3& point) { return glm::length(point) < kFarthestPoint; }
+
+std::string far_point(const glm::dvec3& p) {
+    return fmt::format("has a point at {:g},{:g},{:g}, must be nearer than {:g} m to the origin",
+                       p.x, p.y, p.z, kFarthestPoint);
+}
+
+// Whether a line has names of columns instead of a point.
+bool are_names(std::string_view line) {
+    const char first = lower(line.substr(0, 1))[0];
+    const bool is_word = ('a' <= first && first <= 'z') || first == '"' || first == '_';
+    return is_word && !number_of<double>(trim(split(line, ',')[0]));
+}
+
+// "x,y,nx" of "x [m], y [m], nx".
+std::string names_without_units(std::string_view line) {
+    std::vector<std::string> out;
+    for (const std::string_view field : split(line, ',')) {
+        const std::string_view name = trim(field);
+        out.emplace_back(name.substr(0, name.find(' ')));
+    }
+    return joined(out, ",");
+}
+
 MeasuringPoint point_of_line(std::string_view line, const std::string& where) {
     const std::vector<std::string_view> fields = split(line, ',');
     if (fields.size() != 6) {
@@ -50,20 +77,22 @@ MeasuringPoint point_of_line(std::string_view line, const std::string& where) {
         }
         values[i] = *value;
     }
+    const glm::dvec3 position(values[0], values[1], values[2]);
+    if (!is_near_enough(position)) throw Error(fmt::format("{}: {}", where, far_point(position)));
     const glm::dvec3 normal(values[3], values[4], values[5]);
     const double length = glm::length(normal);
     if (!(length > 0.0 && std::isfinite(length))) {
         throw Error(fmt::format("{}: the normal is {},{},{}, must have a direction", where,
                                 normal.x, normal.y, normal.z));
     }
-    return {{values[0], values[1], values[2]}, normal / length};
+    return {position, normal / length};
 }
 
 }  // namespace
 
-PointPlane parse_plane(const std::string& option, std::string_view text) {
+MeasuringGrid parse_plane(const std::string& option, std::string_view text) {
     const std::vector<double> n = plane_numbers(option, text);
-    PointPlane out;
+    MeasuringGrid out;
     if (n.size() == 7) {
         if (!(n[0] < n[2] && n[1] < n[3])) {
             refuse_plane(option, text, "must have X0 < X1 and Z0 < Z1");
@@ -73,9 +102,11 @@ PointPlane parse_plane(const std::string& option, std::string_view text) {
         out = {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]}};
     } else {
         refuse_plane(option, text,
-                     fmt::format("has {} numbers, must have 7 (X0,Z0,X1,Z1,Y,NX,NZ) or 11 (origin, "
-                                 "edges U and V, NU,NV)",
-                                 n.size()));
+                     fmt::format("has {} numbers, must have 7 or 11: {}", n.size(), kPlaneSyntax));
+    }
+    for (const glm::dvec3& corner :
+         {out.origin, out.origin + out.u, out.origin + out.v, out.origin + out.u + out.v}) {
+        if (!is_near_enough(corner)) refuse_plane(option, text, far_point(corner));
     }
     if (!(glm::length(glm::cross(out.u, out.v)) > 0.0)) {
         refuse_plane(option, text, "has edges in one line, so no normal");
@@ -94,14 +125,14 @@ PointPlane parse_plane(const std::string& option, std::string_view text) {
     return out;
 }
 
-std::string text_of(const PointPlane& plane) {
+std::string text_of(const MeasuringGrid& plane) {
     if (plane.columns == 0) return "";
     const auto& [o, u, v, columns, rows] = plane;
     return fmt::format("{},{},{},{},{},{},{},{},{},{},{}", o.x, o.y, o.z, u.x, u.y, u.z, v.x, v.y,
                        v.z, columns, rows);
 }
 
-std::vector<MeasuringPoint> points_of(const PointPlane& plane) {
+std::vector<MeasuringPoint> points_of(const MeasuringGrid& plane) {
     std::vector<MeasuringPoint> out;
     out.reserve(plane.columns * plane.rows);
     // + 0: no component is -0.
@@ -120,18 +151,20 @@ std::vector<MeasuringPoint> points_of(const PointPlane& plane) {
 std::vector<MeasuringPoint> read_points(const std::filesystem::path& file) {
     const std::string text = read_text(file);
     std::vector<MeasuringPoint> out;
-    std::string_view left = text;
+    std::string_view left = without_byte_order_mark(text);
     bool is_first = true;
     for (std::size_t number = 1; !left.empty(); ++number) {
         const std::size_t end = std::min(left.find('\n'), left.size());
         const std::string_view line = trim(left.substr(0, end));
         left.remove_prefix(std::min(end + 1, left.size()));
         if (line.empty() || line.front() == '#') continue;
-        const bool is_names = is_first && !number_of<double>(trim(split(line, ',')[0])) &&
-                              lower(line).starts_with('x');
-        is_first = false;
-        if (is_names) continue;
-        out.push_back(point_of_line(line, fmt::format("{}: line {}", file.string(), number)));
+        const std::string where = fmt::format("{}: line {}", file.string(), number);
+        if (!std::exchange(is_first, false) || !are_names(line)) {
+            out.push_back(point_of_line(line, where));
+        } else if (lower(names_without_units(line)) != kPointColumns) {
+            throw Error(fmt::format("{}: the columns are '{}', must be {}", where,
+                                    line.substr(0, 80), kPointColumns));
+        }
     }
     if (out.empty()) throw Error(file.string() + ": has no points");
     return out;

@@ -142,9 +142,8 @@ std::vector<CPlane> ldt_planes(const PhotometryText& file, const LdtHead& head,
 }  // namespace
 
 bool looks_like_ldt(std::string_view text) {
-    if (text.starts_with("IES") || text.starts_with("TILT=") ||
-        text.find("\nTILT=") != std::string_view::npos)
-        return false;
+    // Of LM-63; its first line may be "IESNA91", a maker's name may begin so, too.
+    if (text.starts_with("TILT=") || text.find("\nTILT=") != std::string_view::npos) return false;
     for (int line = 1; line <= 3; ++line) {
         const std::size_t end = text.find('\n');
         if (end == std::string_view::npos) return false;

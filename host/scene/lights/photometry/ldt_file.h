@@ -7,7 +7,8 @@
 
 namespace kilolux {
 
-/// Whether the text is a EULUMDAT file and no IES file: its second and third lines are numbers.
+/// Whether the text is a EULUMDAT file and no IES file: its second and third lines are numbers, and
+/// no line begins with "TILT=".
 bool looks_like_ldt(std::string_view text);
 
 /// Reads a EULUMDAT file (A. Stockmar 1990), as read_photometric_web() does; sets all but `name`

@@ -12,7 +12,7 @@ namespace kilolux {
 /// angle 0 is its direction, horizontal angles turn about that axis.
 struct PhotometricWeb {
     std::string name;                // of the file's light
-    std::string text;                // an IES file with it
+    std::string text;                // LM-63 text, for export
     std::vector<double> vertical;    // [deg] rising, within 0 to 180; two or more
     std::vector<double> horizontal;  // [deg] 0 alone: the same all around; else rising, 0 to 360
     std::vector<double> candela;     // [horizontal][vertical] >= 0 [cd]
@@ -36,8 +36,8 @@ double lumens(const PhotometricWeb& web, double up_to = 180.0);
 /// An IES file of type C (LM-63-2002) that is read as this web, bit for bit.
 std::string lm63_text(const PhotometricWeb& web);
 
-/// Makes the table for kernels, with steps of which all of the file's angles are multiples. Where
-/// those would be too small it sets table_error.
+/// Makes the table for kernels, with steps of which all of the file's angles are multiples, or the
+/// smallest allowed. Sets table_error.
 void make_profile_table(PhotometricWeb& web);
 
 /// Where each web's table starts in all of them, one after the other. Throws Error where they are

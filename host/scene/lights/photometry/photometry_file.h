@@ -7,7 +7,7 @@ namespace kilolux {
 
 /// Reads a photometric file of either format, told by its content: LM-63 (.ies) of the editions
 /// 1986, 1991, 1995, 2002 and 2019, types A, B and C; EULUMDAT (.ldt), whose lines 2 and 3 are
-/// numbers. `where` starts the messages.
+/// numbers. A byte order mark of UTF-8 is left out. `where` starts the messages.
 ///
 /// Symmetries are unfolded, all factors applied. A tilt's factors (TILT=INCLUDE) are for a lamp
 /// that is not held as it was measured: they are skipped. Throws Error for TILT=<file> and whatever

@@ -69,9 +69,9 @@ std::size_t PhotometryText::count(std::string_view what, double least) {
     return static_cast<std::size_t>(value);
 }
 
-// A number takes two characters, so a short file cannot claim much.
+// Numbers take a character each and one between two, so a short file cannot claim much.
 void PhotometryText::check_room(std::string_view what, std::size_t count) const {
-    if (count <= left_.size()) return;
+    if (2 * count <= left_.size() + 1) return;
     fail("{} {}s are more than the {} characters that are left hold", count, what, left_.size());
 }
 
@@ -84,10 +84,15 @@ std::vector<double> PhotometryText::numbers(std::string_view what, std::size_t c
 }
 
 std::vector<double> PhotometryText::angles(std::string_view what, std::size_t count) {
-    std::vector<double> out = numbers(what, count);
-    for (std::size_t i = 1; i < count; ++i) {
-        if (out[i] > out[i - 1]) continue;
-        fail("{}s must rise, {} follows {}", what, out[i], out[i - 1]);
+    check_room(what, count);
+    std::vector<double> out;
+    const std::string one = "a " + std::string(what);
+    while (out.size() < count) {
+        const double next = number(one);
+        if (!out.empty() && !(next > out.back())) {
+            fail("{}s must rise, {} follows {}", what, next, out.back());
+        }
+        out.push_back(next);
     }
     return out;
 }
