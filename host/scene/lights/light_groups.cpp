@@ -155,7 +155,7 @@ std::string light_pattern_meaning() {
 
 std::vector<LightGroup> parse_light_groups(const std::string& option, const std::string& text) {
     std::vector<LightGroup> out;
-    if (text.empty()) return out;
+    if (text.empty() || text == "none") return out;
     if (text == kEachLight) return {{std::string(kEachLight), {}, {}}};
     for (const std::string& part : words_of(text, ',')) {
         LightGroup group = parse_group(option, part);

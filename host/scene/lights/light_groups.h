@@ -29,7 +29,7 @@ inline constexpr std::string_view kEachLight = "each";
 /// What patterns may say, for --help.
 std::string light_pattern_meaning();
 
-/// Groups from `NAME=PATTERN[+PATTERN...],...`, or kEachLight; none for an empty text. Throws
+/// Groups from `NAME=PATTERN[+PATTERN...],...`, or kEachLight; "none": no group. Throws
 /// UsageError, which names `option`.
 std::vector<LightGroup> parse_light_groups(const std::string& option, const std::string& text);
 std::string text_of(const std::vector<LightGroup>& groups);

@@ -15,10 +15,10 @@ SHARED_PLAIN_STRUCT(AxesBeside) { FV3 x, y; };
 // else 1; a: -1 / (side + n.z).
 SHARED_FN AxesBeside axes_beside(FV3 n, FV side, FV a) {
     FV b = n.x * n.y * a;
-    AxesBeside out;
-    out.x = fv3(fma(side * n.x, n.x * a, fv(1.0f)), side * b, -side * n.x);
-    out.y = fv3(b, fma(n.y, n.y * a, side), -n.y);
-    return out;
+    AxesBeside axes;
+    axes.x = fv3(fma(side * n.x, n.x * a, fv(1.0f)), side * b, -side * n.x);
+    axes.y = fv3(b, fma(n.y, n.y * a, side), -n.y);
+    return axes;
 }
 
 #if defined(__cplusplus)

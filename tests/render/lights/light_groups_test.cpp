@@ -172,6 +172,7 @@ TEST(LightGroups, EachIsAGroupOfEachNode) {
 }
 
 TEST(LightGroups, SayWhatIsWrong) {
+    EXPECT_TRUE(parse_light_groups("--light-groups", "none").empty());
     const Scene scene = named_grid();
     struct Case {
         const char* groups;
