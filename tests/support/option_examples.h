@@ -28,6 +28,7 @@ inline const std::map<std::string, std::string>& special_values() {
         {"--max-memory", "1073741824"},
         {"--grid", "8,4,2"},
         {"--lanes", "2"},
+        {"--light-groups", "key=lamp*,fill=kind:spot"},
         {"--output", "a.exr"},
         {"--exr-compression", "zips"},
         {"--aov-ids", "uint"},
