@@ -148,7 +148,8 @@ const std::vector<AovKind>& aov_kinds() {
          fill_visibility},
         {"illuminance",
          {"illuminance"},
-         "of lights, in lux: intensity x falloff x cosine, with exact shadows where asked for",
+         "of opaque surfaces by lights, in lux: intensity x falloff x cosine, with exact shadows "
+         "where asked for",
          fill_illuminance},
         {"error-standard",
          {"error.standard"},

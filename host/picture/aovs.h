@@ -38,8 +38,9 @@ Layer make_aov_of_strip(std::string_view name, const DecodedSurfaces& surfaces,
 /// The names of layers of groups' light begin so.
 inline constexpr std::string_view kLightLayers = "light.";
 
-/// The light of each group, and of the rest: what else the picture shows, by subtraction, so that
-/// the sum of all is the picture within the rounding of one subtraction.
+/// The light of each group. A last layer is the picture minus all groups, so all layers add up to
+/// the picture but for one rounding; it may be a little below 0, and NaN where the light is
+/// infinite.
 std::vector<Layer> make_light_layers(const DecodedSurfaces& surfaces,
                                      const std::vector<LightGroup>& groups);
 

@@ -61,6 +61,9 @@ struct FrameRequest {
     /// Whether surfaces or counts of single pixels are read.
     bool pixels() const { return !aovs.empty() || view != ViewKind::lit; }
 
+    /// Whether illuminance is made beside the picture.
+    bool illuminance() const { return has_aov("illuminance") || view == ViewKind::illuminance; }
+
     /// Whether surfaces that blend are read.
     bool layers() const {
         return pixels() && (layer == SurfaceLayer::nearest || view == ViewKind::layers ||

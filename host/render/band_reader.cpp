@@ -117,10 +117,7 @@ DecodedSurfaces BandReader::pixels(const LastSample& last) {
                                  SURFACE_PLANES * plane_size(band));
     count_evaluated(last, out);
     if (context_.settings.want.layers()) add_layers(last, out);
-    const FrameRequest& want = context_.settings.want;
-    if (want.has_aov("illuminance") || want.view == ViewKind::illuminance) {
-        out.illuminance = illuminance(last);
-    }
+    if (context_.settings.want.illuminance()) out.illuminance = illuminance(last);
     if (band.light.groups > 0) {
         out.light = download(context_.gpu, band.light.planes, band.light.floats());
     }

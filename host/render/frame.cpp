@@ -69,6 +69,7 @@ void add_pixels(Pipeline& p, const Shot& shot, SharedPicture& picture) {
     }
     std::ranges::move(make_light_layers(pixels, p.context.settings.light_groups),
                       std::back_inserter(layers));
+    pixels.light = {};
     const auto width = static_cast<std::size_t>(frame.width);
     const std::scoped_lock lock(picture.placing);
     const std::size_t row = pixels.view.first_row - static_cast<std::size_t>(frame.first_row);

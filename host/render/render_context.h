@@ -36,7 +36,9 @@ struct RenderContext {
         return resolves_ids(settings.geometry) && !is_forward(settings.renderer);
     }
     /// Whether some surfaces blend over others.
-    bool blends() const { return has_blended_surfaces(scene->scene()); }
+    bool blends() const {
+        return !plan.kernels.illuminance && has_blended_surfaces(scene->scene());
+    }
 
     /// Whether OpenGL's fragments are lit, from lights on the host.
     bool lights_on_host() const { return is_forward(settings.renderer); }

@@ -125,8 +125,7 @@ struct RenderSettings {
     int samples = 1;  // jittered samples a pixel
     AutoSamples auto_samples;
     FrameRequest want;  // what render() brings to the host
-    // Layers of Frame::aovs, after those that are wanted: the light of each, named kLightLayers and
-    // the group's name, and the rest.
+    // Frame::aovs ends with a layer for each, named kLightLayers + name, and one for the rest.
     std::vector<LightGroup> light_groups;
     GridSettings grid;
     KernelSettings kernels;

@@ -74,7 +74,7 @@ typedef struct LightSet {
 #if LIGHT_GROUPS
     LightSum* groups;        // [1 + LIGHT_GROUPS]; 0: of the lights in no group
     uint first_directional;  // place of the directional lights in extras.groups
-    MASK mine;               // lanes whose groups get the light
+    MASK mine;               // lanes of the cluster: only they add to `groups`
 #endif
     LightExtras extras;
 } LightSet;
@@ -274,8 +274,9 @@ static inline bool hides_any(LightSet set, uint entry) {
 #endif
 #endif
 
-// A light that joins two sums is evaluated once, as a white one: a term of a sum is a weight times
-// the colour, by one fma, so no bit changes. Random ranges depend on the colour.
+// To join two sums, a light is evaluated once with colour 1, and its colour is multiplied in when
+// it is added. The bits stay, as each term is fma(weight, colour, sum). Not with random ranges,
+// whose weight needs the colour.
 #if LIGHT_GROUPS && !HAS_RANDOM_RANGES
 static inline ShadeLight weighed(ShadeLight light) {
     light.color_scale.xyz = (float3)(1.0f);

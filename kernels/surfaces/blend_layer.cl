@@ -2,7 +2,8 @@
 // Lays lit layers over the light behind them, one after the other:
 // alpha * layer + (1 - alpha + alpha * t) * behind, with the alpha of the material and what the
 // surface transmits, t. Where alpha is 0, or is 1 with t 0, the result has the bits of one of the
-// two. So is the light of each group of lights. One work-item has VW neighbours of a row.
+// two. The light of each group of lights is blended alike. One work-item has VW neighbours of a
+// row.
 #include "kernels/device/arguments.h"
 #include "kernels/device/gbuffer.h"
 #include "kernels/device/radiance.h"

@@ -63,7 +63,7 @@ void visit_picture(const SettingVisitor& f, SharedOptions& o) {
                 "Layers light.NAME of an EXR file: the light of each group of lights and of the "
                 "rest, whose sum is the picture. Patterns are joined by +, a light is in the first "
                 "group that matches; " +
-                    light_pattern_meaning() + "; each: a group for each light of the file",
+                    light_pattern_meaning() + "; each: a group for each node with lights",
                 kPicture},
                o.light_groups, parse_light_groups)
         .choice({"--aov-layer", "", "", "Of which surfaces --aov and --show tell", kPicture},

@@ -205,6 +205,7 @@ std::string add_environment(SharedOptions& options, AnimatedScene& scene) {
 bool wants_reflections(const SharedOptions& options, const Scene& scene) {
     constexpr double kMostly = 0.5;
     return options.shows_environment && !options.ambient_given &&
+           options.settings.shading != Shading::illuminance &&
            !is_forward(options.settings.renderer) && metallic_share(scene) > kMostly;
 }
 
@@ -305,7 +306,7 @@ void choose_emissive_lights(const SharedOptions& options, AnimatedScene& scene) 
 
 void choose_light_groups(SharedOptions& options, const Scene& scene) {
     RenderSettings& s = options.settings;
-    s.light_groups = light_groups_of(scene, s.lights.count, options.light_groups);
+    s.light_groups = light_groups_of(scene, s.lights, options.light_groups);
 }
 
 void choose_tails(SharedOptions& options, const Scene& scene) {

@@ -66,6 +66,7 @@ ViewState start_state(const ViewOptions& options, const CLI::App& command, State
     state.settings.background = options.shared.shown_background;
     state.settings.reflections = options.shared.maps;
     state.settings.want.aovs.clear();
+    state.settings.light_groups.clear();
     state.settings.want.probes = true;
     state.settings.want.radiance = false;
     // Pictures that are counted are made one by one, each complete.

@@ -106,6 +106,7 @@ Bytes layer_bytes(const RenderSettings& settings) {
 Bytes picture_pixel_bytes(const RenderSettings& settings) {
     Bytes bytes = kHostPixel + 2 * layer_bytes(settings);
     if (settings.want.view != ViewKind::lit) bytes += DecodedSurfaces::kPixelBytes;
+    if (settings.want.view == ViewKind::illuminance) bytes += Radiance::kPixelBytes;
     if (settings.want.view == ViewKind::difference) bytes *= 2;
     return bytes;
 }
@@ -136,7 +137,9 @@ Bytes band_pixel_bytes(const RenderSettings& settings, const ScenePlan& plan, bo
     Bytes lists = BinPixels::kPixelBytes;
     if (plan.kernels.shadows) lists += ShadowOrigins::kPixelBytes;
     Bytes bytes = static_cast<Bytes>(plan.gbuffer_bytes_per_pixel) + lists + kBandPixel +
-                  2 * groups * Radiance::kPixelBytes;  // and on the host
+                  2 * groups * Radiance::kPixelBytes;                           // and on the host
+    if (plan.kernels.sampled_shadows) bytes += groups * Radiance::kPixelBytes;  // unshadowed
+    if (settings.want.illuminance()) bytes += 2 * Radiance::kPixelBytes;
     if (blends) {
         bytes += static_cast<Bytes>(plan.of_layers().gbuffer_bytes_per_pixel) + lists +
                  Layers::kPixelBytes + groups * Radiance::kPixelBytes;
@@ -182,10 +185,11 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
     }
     need.fixed += width * tile_rows * target_pixel;
     need.band_pixel = band_pixel_bytes(settings, plan, ids, blends);
-    need.largest_element =
-        std::max<Bytes>({reads_pixels(settings) ? DecodeGBuffer::kPixelBytes : 0,
-                         (1 + settings.light_groups.size()) * Radiance::kPixelBytes,
-                         static_cast<Bytes>(plan.of_layers().gbuffer_bytes_per_pixel)});
+    need.largest_element = std::max<Bytes>(
+        {reads_pixels(settings) ? DecodeGBuffer::kPixelBytes : 0,
+         (1 + settings.light_groups.size()) * (settings.samples > 1 ? SumSamples::kSumFloats : 1) *
+             Radiance::kPixelBytes,
+         static_cast<Bytes>(plan.of_layers().gbuffer_bytes_per_pixel)});
     return need;
 }
 

@@ -89,11 +89,17 @@ void check_illuminance(const RenderSettings& settings) {
     if (settings.shading == Shading::illuminance && settings.reflections) {
         throw UsageError("shading illuminance: it is that of lights; leave out --reflections");
     }
-    const bool wants_layer =
-        settings.want.has_aov("illuminance") || settings.want.view == ViewKind::illuminance;
-    if (!wants_layer) return;
+    if (settings.shading == Shading::illuminance && settings.want.view == ViewKind::luminance) {
+        throw UsageError("--show luminance: not of --shading illuminance; take --show illuminance");
+    }
+    if (!settings.want.illuminance()) return;
     if (is_forward(settings.renderer)) {
         throw UsageError("illuminance: of the forward renderers only --shading illuminance");
+    }
+    if (settings.tails == Tails::stochastic) {
+        throw UsageError(
+            "illuminance: a layer has no stochastic tails; take --tails bounded, or --shading "
+            "illuminance");
     }
     if (settings.shadows == Shadows::sampled) {
         throw UsageError(
@@ -136,7 +142,7 @@ bool take_area_lights(const RenderSettings& settings) {
 
 bool tree_can_light(const Scene& scene, const RenderSettings& settings) {
     return settings.renderer == RendererKind::deferred && settings.shadows == Shadows::off &&
-           !has_blended_surfaces(scene);
+           settings.light_groups.empty() && !has_blended_surfaces(scene);
 }
 
 }  // namespace kilolux

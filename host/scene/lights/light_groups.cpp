@@ -54,7 +54,7 @@ std::string origin_of(const SceneLight& light, const Scene&) {
 constexpr LightKey kLightKeys[] = {
     {"", node_name_of, "name of the node"},
     {"kind", kind_name_of, "point, spot, directional, rect, disk, sphere, triangle"},
-    {"group", extras_group_of, "extras.group of the node or its light"},
+    {"group", extras_group_of, "extras.group of the node, else of its light"},
     {"ies", web_name_of, "name of the photometric web"},
     {"from", origin_of, "file, surfaces, generated"},
 };
@@ -121,9 +121,16 @@ std::string name_of_light(const Scene& scene, int node, std::set<std::string>& t
     std::ranges::replace_if(
         name, [](char c) { return !is_name_letter(c); }, '_');
     if (name.empty()) name = fmt::format("node{}", node);
-    if (name == kRestGroup || taken.contains(name)) name += fmt::format("_{}", node);
+    while (name == kRestGroup || taken.contains(name)) name += fmt::format("_{}", node);
     taken.insert(name);
     return name;
+}
+
+// A light that is in the groups of the generated ones.
+SceneLight kind_of_generated(const LightOptions& options) {
+    SceneLight out;
+    if (options.size > 0.0) out.type = LightType::sphere;
+    return out;
 }
 
 std::vector<LightGroup> group_of_each(const Scene& scene) {
@@ -177,7 +184,7 @@ std::string text_of(const std::vector<LightGroup>& groups) {
     return out;
 }
 
-std::vector<LightGroup> light_groups_of(const Scene& scene, std::uint64_t generated,
+std::vector<LightGroup> light_groups_of(const Scene& scene, const LightOptions& generated,
                                         const std::vector<LightGroup>& asked) {
     const bool each = asked.size() == 1 && asked[0].name == kEachLight && asked[0].patterns.empty();
     std::vector<LightGroup> out = each ? group_of_each(scene) : asked;
@@ -188,7 +195,7 @@ std::vector<LightGroup> light_groups_of(const Scene& scene, std::uint64_t genera
     }
     std::vector<std::size_t> lights(out.size() + 1);
     for (const SceneLight& light : scene.lights) ++lights[group_of(light, scene, out)];
-    if (generated > 0) ++lights[group_of(SceneLight(), scene, out)];
+    if (generated.count > 0) ++lights[group_of(kind_of_generated(generated), scene, out)];
     for (std::size_t i = 0; i < out.size(); ++i) {
         if (lights[i + 1] > 0) continue;
         throw UsageError(fmt::format("light groups: no light is in '{}' ({})", out[i].name,

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "host/scene/lights/light_generator.h"
 #include "host/scene/scene.h"
 
 namespace kilolux {
@@ -36,7 +37,7 @@ std::string text_of(const std::vector<LightGroup>& groups);
 
 /// The groups of a scene: kEachLight becomes a group for each light, named as its node. Throws
 /// UsageError for a group that no light is in, and for more than kMostLightGroups.
-std::vector<LightGroup> light_groups_of(const Scene& scene, std::uint64_t generated,
+std::vector<LightGroup> light_groups_of(const Scene& scene, const LightOptions& generated,
                                         const std::vector<LightGroup>& asked);
 
 /// The number of the first group that the light is in, from 1 on; 0: it is in none.

@@ -5,6 +5,7 @@
 
 #include "host/picture/decoded_surfaces.h"
 #include "host/scene/lights/light_ranges.h"
+#include "tests/support/glass_pictures.h"
 #include "tests/support/render_fixture.h"
 
 namespace kilolux {
@@ -89,12 +90,33 @@ TEST(Illuminance, OfThePictureIsThatOfTheLayer) {
     }
 }
 
+TEST(Illuminance, IsThatOfOpaqueSurfaces) {
+    const Scene scene = glass_scene();
+    RenderSettings settings = with_illuminance(small_settings(96, 64, 0));
+    settings.shading = Shading::illuminance;
+    const Frame frame = render_once(scene, settings);
+    const Layer& layer = layer_named(frame, "illuminance");
+    EXPECT_GT(*std::ranges::max_element(layer.values), 0.1f);
+    for (std::size_t i = 0; i < layer.values.size(); ++i) {
+        EXPECT_NEAR(luminance_of(vector_at({"", {}, frame.radiance}, i)), layer.values[i],
+                    1e-6 * layer.values[i])
+            << i;
+    }
+}
+
 TEST(Illuminance, IsRefusedByName) {
     const Scene scene = grid_with_every_light();
     RenderSettings settings = with_illuminance(small_settings());
     settings.shadows = Shadows::sampled;
     expect_refused(scene, settings, "illuminance: a layer has no sampled shadows");
     settings.shadows = Shadows::off;
+    settings.tails = Tails::stochastic;
+    expect_refused(scene, settings, "illuminance: a layer has no stochastic tails");
+    settings.tails = Tails::bounded;
+    settings.shading = Shading::illuminance;
+    settings.want.view = ViewKind::luminance;
+    expect_refused(scene, settings, "--show luminance: not of --shading illuminance");
+    settings.want.view = ViewKind::lit;
     settings.renderer = RendererKind::forward;
     expect_refused(scene, settings, "illuminance: of the forward renderers only --shading");
 }

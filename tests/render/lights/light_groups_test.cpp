@@ -29,7 +29,7 @@ const char* const kGroups =
 
 RenderSettings grouped(const Scene& scene, RenderSettings settings, const char* groups = kGroups) {
     settings.light_groups =
-        light_groups_of(scene, settings.lights.count, parse_light_groups("--light-groups", groups));
+        light_groups_of(scene, settings.lights, parse_light_groups("--light-groups", groups));
     return settings;
 }
 
@@ -163,10 +163,15 @@ TEST(LightGroups, FollowAChangeOfGroups) {
 
 TEST(LightGroups, EachIsAGroupOfEachNode) {
     const Scene scene = named_grid();
-    const auto groups = light_groups_of(scene, 0, parse_light_groups("--light-groups", "each"));
+    const auto groups = light_groups_of(scene, {}, parse_light_groups("--light-groups", "each"));
     ASSERT_EQ(groups.size(), 2u);
     EXPECT_EQ(groups[0].name, "left");
     EXPECT_EQ(groups[1].name, "right");
+    LightOptions spheres;
+    spheres.count = 9;
+    spheres.size = 0.1;
+    EXPECT_EQ(light_groups_of(Scene(), spheres, parse_light_groups("", "a=kind:sphere")).size(),
+              1u);
     EXPECT_EQ(group_of(scene.lights[1], scene, groups), 2);
     EXPECT_EQ(group_of(scene.lights.back(), scene, groups), 0);
 }
