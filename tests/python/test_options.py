@@ -17,7 +17,7 @@ OTHER = {  # the keyword, and the text that it stands for
     "camera_index": ("auto", "auto"), "camera_position": ((1, 2, 3.5), "1,2,3.5"),
     "camera_focal_point": ((0, 1, 0.5), "0,1,0.5"), "camera_view_up": ((0, 0, 1), "0,0,1"),
     "device": ("pthread", "pthread"), "max_memory": ("1073741824", "1073741824"),
-    "grid": ((8, 4, 2), "8,4,2"), "lanes": (4, "4"),
+    "grid": ((8, 4, 2), "8,4,2"), "lanes": (4, "4"), "light_groups": ("a=b*,c=kind:spot", "a=b*,c=kind:spot"),
 }
 
 

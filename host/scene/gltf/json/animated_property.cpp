@@ -42,7 +42,7 @@ bool is_index(std::string_view part, std::size_t& index) {
 }
 
 // A JSON pointer as an array, the element's index and a path within it.
-std::optional<AnimatedProperty> split(std::string_view pointer) {
+std::optional<AnimatedProperty> split_pointer(std::string_view pointer) {
     AnimatedProperty out;
     bool has_element = false;
     while (pointer.starts_with('/')) {
@@ -137,7 +137,7 @@ std::optional<AnimatedProperty> animated_property(const GltfDocument& document,
                .element = static_cast<std::size_t>(channel.target_node),
                .path = channel.target_path};
     } else {
-        out = split(pointer_of(channel));
+        out = split_pointer(pointer_of(channel));
     }
     if (!out) return {};
     const auto* elements = json_elements(document, out->array);
