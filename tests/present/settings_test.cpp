@@ -263,6 +263,7 @@ TEST(Settings, AreInTheCopiedCommand) {
                             "--progress",
                             "--verbose",
                             "--aov",
+                            "--light-groups",
                             "--camera-index",
                             "--camera-position",
                             "--camera-focal-point",
