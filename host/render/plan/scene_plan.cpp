@@ -112,6 +112,20 @@ SceneFeatures needed(SceneFeatures out, int shading, const RenderSettings& setti
     return out;
 }
 
+// What a scene with a light tree cannot have.
+void check_light_tree(const SceneFeatures& features) {
+    if (features.light_groups > 0) {
+        throw UsageError(
+            "light groups: a node of the light tree has lights of several groups; take --tails "
+            "bounded or exact");
+    }
+    if (features.alpha_blend) {
+        throw UsageError(
+            "tails tree: not for scenes with surfaces that blend or transmit; take --tails "
+            "exact");
+    }
+}
+
 int bytes_per_pixel(const GBufferNeeds& needs) {
     return static_cast<int>(make_gbuffer_layout(needs, 16, 1).bytes_per_pixel);
 }
@@ -158,16 +172,7 @@ ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings,
             ? static_cast<std::uint64_t>(std::ranges::count_if(scene.lights, is_for_tree))
             : 0;
     if (in_tree > 0) {
-        if (features.light_groups > 0) {
-            throw UsageError(
-                "light groups: a node of the light tree has lights of several groups; take --tails "
-                "bounded or exact");
-        }
-        if (features.alpha_blend) {
-            throw UsageError(
-                "tails tree: not for scenes with surfaces that blend or transmit; take --tails "
-                "exact");
-        }
+        check_light_tree(features);
         features.wide_light_index = light_count + 2 * in_tree > 65536;
     }
     features = needed(features, shading, settings);
