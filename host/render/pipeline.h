@@ -4,7 +4,7 @@
 #include <map>
 #include <memory>
 
-#include "host/render/band_reader.h"
+#include "host/render/read/band_reader.h"
 #include "host/render/environment_light.h"
 #include "host/render/frame_stages.h"
 #include "host/render/lights/light_source.h"
