@@ -28,8 +28,7 @@ static inline DirectionalLight weighed_directional(DirectionalLight light) {
 #define LIT(sum, color, EVALUATED) EVALUATED(sum)
 #endif
 
-#if SHADOWS
-#if TINTED_SHADOWS
+#if SHADOWS && TINTED_SHADOWS
 #define TINT_VIEW(set) (set).tints.scene.view
 // Where surfaces tint the light: `tinted_lanes` and each colour's `share`.
 #define FIND_TINT(set, light, lanes) \
@@ -47,19 +46,12 @@ static inline DirectionalLight weighed_directional(DirectionalLight light) {
 #define TINT(sum, lit, color, EVALUATED)
 #endif
 
-#define ADD_LIT(sum, color, lanes, EVALUATED)      \
-    {                                              \
-        LightSum lit = LIT(sum, color, EVALUATED); \
-        TINT(sum, lit, color, EVALUATED)           \
-        (sum) = select_sum(lanes, lit, sum);       \
-    }
 #if LIGHT_GROUPS
-#define ADD_TO_GROUP(set, group, color, lanes, EVALUATED) \
-    {                                                     \
-        LightSum in_group = *(group);                     \
-        MASK joining = (lanes) & (set).mine;              \
-        ADD_LIT(in_group, color, joining, EVALUATED)      \
-        *(group) = in_group;                              \
+#define ADD_TO_GROUP(set, group, color, lanes, EVALUATED)   \
+    if ((group) != 0u) {                                    \
+        LightSum alone = LIT(zero_sum(), color, EVALUATED); \
+        TINT(zero_sum(), alone, color, EVALUATED)           \
+        join_group(set, group, lanes, alone);               \
     }
 #else
 #define ADD_TO_GROUP(set, group, color, lanes, EVALUATED)
@@ -68,28 +60,25 @@ static inline DirectionalLight weighed_directional(DirectionalLight light) {
 // ADD_SEEN(set, sum, group, color, seen, light, EVALUATED): adds a light of this colour where
 // `seen`, to `group` also. EVALUATED(sum): the sum with it, or with the white light; it is computed
 // only if any lane sees it. light: as shadow rays have it.
+#if SHADOWS
 #define ADD_SEEN(set, sum, group, color, seen, light, EVALUATED) \
     {                                                            \
         MASK lanes = (seen);                                     \
         if (lane_any(lanes)) {                                   \
             FIND_TINT(set, light, lanes)                         \
             WEIGH(EVALUATED)                                     \
-            ADD_LIT(sum, color, lanes, EVALUATED)                \
+            LightSum lit = LIT(sum, color, EVALUATED);           \
+            TINT(sum, lit, color, EVALUATED)                     \
+            (sum) = select_sum(lanes, lit, sum);                 \
             ADD_TO_GROUP(set, group, color, lanes, EVALUATED)    \
         }                                                        \
     }
 #else
-#if LIGHT_GROUPS
-#define ADD_TO_GROUP(set, group, color, EVALUATED) \
-    *(group) = select_sum((set).mine, LIT(*(group), color, EVALUATED), *(group));
-#else
-#define ADD_TO_GROUP(set, group, color, EVALUATED)
-#endif
 #define ADD_SEEN(set, sum, group, color, seen, light, EVALUATED) \
     {                                                            \
         WEIGH(EVALUATED)                                         \
         (sum) = LIT(sum, color, EVALUATED);                      \
-        ADD_TO_GROUP(set, group, color, EVALUATED)               \
+        ADD_TO_GROUP(set, group, color, (MASK)(-1), EVALUATED)   \
     }
 #endif
 

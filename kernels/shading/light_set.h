@@ -69,7 +69,9 @@ typedef struct LightSet {
     Candidates candidates;
 #endif
 #if LIGHT_GROUPS
-    LightSum* groups;        // [1 + LIGHT_GROUPS]; 0: of the lights in no group
+    const Surface* surface;
+    const ShadingPoint* point;
+    FV3* groups;             // [1 + LIGHT_GROUPS], radiance that the surface reflects; 0: unused
     uint first_directional;  // place of the directional lights in extras.groups
     MASK mine;               // lanes of the cluster: only they add to `groups`
 #endif
@@ -101,8 +103,8 @@ static inline LightSet light_set(global const StoredLight* lights, LightExtras e
     return set;
 }
 
-// The sum of its group that a light joins; `place`: in extras.groups.
-#define GROUP_OF(set, place) ((set).groups + (set).extras.groups[place])
+// The group that a light joins, 0: none; `place`: in extras.groups.
+#define GROUP_OF(set, place) ((set).extras.groups[place])
 #define DIRECTIONAL_PLACE(set, i) ((set).first_directional + (i))
 
 // `a` in the lanes of `mask`, else `b`.
@@ -112,4 +114,21 @@ static inline LightSum select_sum(MASK mask, LightSum a, LightSum b) {
     LIGHT_TERMS(SELECT_TERM)
     return a;
 }
+
+#if LIGHT_GROUPS
+// Adds a light, of which `alone` is the sum, to its group, not 0.
+static inline void join_group(LightSet set, uint group, MASK lanes, LightSum alone) {
+    FV3 lit =
+        select3(lanes & set.mine, reflected_radiance(*set.surface, *set.point, alone), zero3());
+#if LIGHT_GROUPS <= 8
+    // Constant indices let the sums stay in registers.
+#pragma unroll
+    for (uint i = 1u; i <= LIGHT_GROUPS; ++i) {
+        if (i == group) set.groups[i] = add3(set.groups[i], lit);
+    }
+#else
+    set.groups[group] = add3(set.groups[group], lit);
+#endif
+}
+#endif
 #endif
