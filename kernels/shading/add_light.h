@@ -21,11 +21,15 @@ static inline DirectionalLight weighed_directional(DirectionalLight light) {
 
 #define WEIGH(EVALUATED) LightSum weights = EVALUATED(zero_sum());
 #define LIT(sum, color, EVALUATED) add_colored(sum, weights, color)
+#define ALONE(EVALUATED) weights
+#define COLOR_ALONE(color) fv3(fv((color).x), fv((color).y), fv((color).z))
 #else
 #define weighed(light) (light)
 #define weighed_directional(light) (light)
 #define WEIGH(EVALUATED)
 #define LIT(sum, color, EVALUATED) EVALUATED(sum)
+#define ALONE(EVALUATED) EVALUATED(zero_sum())
+#define COLOR_ALONE(color) WHITE
 #endif
 
 #if SHADOWS && TINTED_SHADOWS
@@ -35,6 +39,7 @@ static inline DirectionalLight weighed_directional(DirectionalLight light) {
     FV3 share;                       \
     (set).tints.wanted = (lanes);    \
     MASK tinted_lanes = tinted((set).tints, light, &share);
+#define TINT_COLOR(color) (color) = select3(tinted_lanes, fma3(share, color, zero3()), color);
 // There `sum` plus the share of the light alone, in place of `lit`.
 #define TINT(sum, lit, color, EVALUATED)                                    \
     if (lane_any(tinted_lanes)) {                                           \
@@ -43,15 +48,16 @@ static inline DirectionalLight weighed_directional(DirectionalLight light) {
     }
 #else
 #define FIND_TINT(set, light, lanes)
+#define TINT_COLOR(color)
 #define TINT(sum, lit, color, EVALUATED)
 #endif
 
 #if LIGHT_GROUPS
-#define ADD_TO_GROUP(set, group, color, lanes, EVALUATED)   \
-    if ((group) != 0u) {                                    \
-        LightSum alone = LIT(zero_sum(), color, EVALUATED); \
-        TINT(zero_sum(), alone, color, EVALUATED)           \
-        join_group(set, group, lanes, alone);               \
+#define ADD_TO_GROUP(set, group, color, lanes, EVALUATED)        \
+    if ((group) != 0u) {                                         \
+        FV3 factor = COLOR_ALONE(color);                         \
+        TINT_COLOR(factor)                                       \
+        join_group(set, group, lanes, factor, ALONE(EVALUATED)); \
     }
 #else
 #define ADD_TO_GROUP(set, group, color, lanes, EVALUATED)

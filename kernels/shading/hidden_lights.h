@@ -121,12 +121,12 @@ static inline bool hides_any(LightSet set, uint entry) {
 #endif
 #if LIGHT_GROUPS
 // The light alone, so that its variance counts once; terms are added with the same bits.
-#define ADD_SAMPLED(set, entry, light, sum, group, ONE)               \
-    {                                                                 \
-        LightSum taken = zero_sum();                                  \
-        ADD_ALONE(set, entry, light, taken, ONE)                      \
-        (sum) = add_sums(sum, taken);                                 \
-        if ((group) != 0u) join_group(set, group, (MASK)(-1), taken); \
+#define ADD_SAMPLED(set, entry, light, sum, group, ONE)                      \
+    {                                                                        \
+        LightSum taken = zero_sum();                                         \
+        ADD_ALONE(set, entry, light, taken, ONE)                             \
+        (sum) = add_sums(sum, taken);                                        \
+        if ((group) != 0u) join_group(set, group, (MASK)(-1), WHITE, taken); \
     }
 #else
 #define ADD_SAMPLED(set, entry, light, sum, group, ONE) ADD_ALONE(set, entry, light, sum, ONE)

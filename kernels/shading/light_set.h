@@ -105,6 +105,7 @@ static inline LightSet light_set(global const StoredLight* lights, LightExtras e
 
 // The group that a light joins, 0: none; `place`: in extras.groups.
 #define GROUP_OF(set, place) ((set).extras.groups[place])
+#define WHITE fv3(fv(1.0f), fv(1.0f), fv(1.0f))
 #define DIRECTIONAL_PLACE(set, i) ((set).first_directional + (i))
 
 // `a` in the lanes of `mask`, else `b`.
@@ -116,18 +117,23 @@ static inline LightSum select_sum(MASK mask, LightSum a, LightSum b) {
 }
 
 #if LIGHT_GROUPS
-// Adds a light, of which `alone` is the sum, to its group, not 0.
-static inline void join_group(LightSet set, uint group, MASK lanes, LightSum alone) {
-    FV3 lit =
-        select3(lanes & set.mine, reflected_radiance(*set.surface, *set.point, alone), zero3());
+static inline FV3 fma3(FV3 a, FV3 b, FV3 c) {
+    return fv3(fma(a.x, b.x, c.x), fma(a.y, b.y, c.y), fma(a.z, b.z, c.z));
+}
+
+// Adds a light to its group, not 0: `color` times the light of which `weights` is the sum.
+static inline void join_group(LightSet set, uint group, MASK lanes, FV3 color, LightSum weights) {
+    FV3 lit = reflected_radiance(*set.surface, *set.point, weights);
+    MASK joining = lanes & set.mine;
 #if LIGHT_GROUPS <= 8
     // Constant indices let the sums stay in registers.
 #pragma unroll
     for (uint i = 1u; i <= LIGHT_GROUPS; ++i) {
-        if (i == group) set.groups[i] = add3(set.groups[i], lit);
+        if (i == group)
+            set.groups[i] = select3(joining, fma3(lit, color, set.groups[i]), set.groups[i]);
     }
 #else
-    set.groups[group] = add3(set.groups[group], lit);
+    set.groups[group] = select3(joining, fma3(lit, color, set.groups[group]), set.groups[group]);
 #endif
 }
 #endif
