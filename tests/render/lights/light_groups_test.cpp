@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Layers of the light of groups of lights.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <functional>
 #include <utility>
@@ -124,6 +126,30 @@ TEST(LightGroups, AreInSamplesAndBandsAlike) {
     const Frame banded = render_once(scene, settings);
     for (std::size_t i = 0; i < whole.aovs.size(); ++i) {
         EXPECT_EQ(whole.aovs[i].values, banded.aovs[i].values) << whole.aovs[i].name;
+    }
+}
+
+// Kernels tell up to eight groups apart by comparisons, more by their place.
+TEST(LightGroups, ManyAreTheSameAsOneAlone) {
+    constexpr int kMany = 12;
+    Scene scene = grid_with_every_light();
+    std::string all;
+    for (int i = 0; i < kMany; ++i) {
+        scene.light_nodes.push_back({fmt::format("lamp{}", i), ""});
+        all += fmt::format("{}lamp{}=lamp{}", i > 0 ? "," : "", i, i);
+    }
+    const std::size_t lights = scene.lights.size();
+    for (std::size_t i = 0; i < kMany; ++i) {
+        scene.lights.push_back(scene.lights[i % lights]);
+        scene.lights.back().node = static_cast<int>(i);
+    }
+    RenderSettings settings = small_settings(96, 64, 0);
+    settings.shading = Shading::pbr;
+    const Frame many = expect_whole(scene, grouped(scene, settings, all.c_str()));
+    for (int i = 0; i < kMany; i += 5) {
+        const std::string name = fmt::format("lamp{}", i);
+        const Frame one = render_once(scene, grouped(scene, settings, (name + "=" + name).c_str()));
+        EXPECT_EQ(layer_of(many, name).values, layer_of(one, name).values) << name;
     }
 }
 
