@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/render/lights/light_source.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 
+#include "host/base/system/parallel.h"
 #include "host/render/lights/light_order.h"
 #include "host/scene/lights/light_kinds.h"
 #include "host/scene/lights/rig.h"
@@ -182,7 +181,7 @@ template <typename Row>
 DeviceArray<Row> LightSource::upload_extras(GrowingArray<Row>& to, const Row& drifting_row,
                                             auto&& row_of) {
     std::vector<Row> rows(row_count(), drifting_row);
-    tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
+    parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
         const bool drifts = i >= order_.size() && i < list_count();
         if (!drifts) rows[i] = row_of(light(i));
     });
@@ -218,7 +217,7 @@ void LightSource::upload() {
         input_.extras.shapes = upload_extras(shapes_, shape_row(drifting_light()), shape_row);
     }
     const std::span<WorldLight> rows = move_.stage(row_count() - drifting());
-    tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
+    parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
         rows[i] = world_light(light(i < order_.size() ? i : i + drifting()));
     });
     move_.upload(order_.size(), drifting());
@@ -286,7 +285,7 @@ LightInput LightSource::input(const glm::dvec3& camera_position, bool reuse, Sta
 LightRows LightSource::rows(const glm::dvec3& camera_position) {
     if (drifting() > 0) generated_.read_order();
     std::vector<SceneLight> lights(row_count());
-    tbb::parallel_for(std::size_t{0}, row_count(), [&](std::size_t i) { lights[i] = light(i); });
+    parallel_for(std::size_t{0}, row_count(), [&](std::size_t i) { lights[i] = light(i); });
     for (const std::uint32_t number : directional_order_) lights.push_back(own_[number]);
     LightRows out = make_light_rows(lights, camera_position);
     if (has_area_lights()) out.shapes.resize(out.local.size());  // points, where none is usable

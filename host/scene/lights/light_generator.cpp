@@ -4,7 +4,6 @@
 #include "host/scene/lights/light_generator.h"
 
 #include <fmt/core.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +13,7 @@
 #include "host/base/error.h"
 #include "host/base/light_cells.h"
 #include "host/base/point_pair.h"
+#include "host/base/system/parallel.h"
 #include "host/scene/lights/light_kinds.h"
 
 namespace kilolux {
@@ -246,10 +246,8 @@ std::vector<SceneLight> generate_lights(const LightOptions& options, const Scene
                                         double time) {
     const LightGenerator generator(options, scene, time);
     std::vector<SceneLight> lights(options.count);
-    const auto fill = [&](const tbb::blocked_range<std::uint64_t>& range) {
-        for (std::uint64_t i = range.begin(); i < range.end(); ++i) lights[i] = generator[i];
-    };
-    tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, options.count, kLightsAtOnce), fill);
+    const auto fill = [&](std::uint64_t i) { lights[i] = generator[i]; };
+    parallel_for(std::uint64_t{0}, options.count, fill, kLightsAtOnce);
     return lights;
 }
 

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+#include <tbb/parallel_reduce.h>
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+#include <vector>
+
+#if defined(__SANITIZE_THREAD__)
+extern "C" void __tsan_acquire(void* address);
+extern "C" void __tsan_release(void* address);
+#endif
+
+namespace kilolux {
+
+/// Tells the sanitizer for threads that work on other threads runs after what the caller did before
+/// and before what the caller does next, from its last variable on: oneTBB, which hands it over, is
+/// not instrumented. Nothing in other builds.
+class HandOver {
+ public:
+    HandOver() { release(); }
+    ~HandOver() { acquire(); }
+    HandOver(const HandOver&) = delete;
+    HandOver& operator=(const HandOver&) = delete;
+
+    /// `work`, which other threads may call.
+    template <typename Work>
+    static auto given(const Work& work) {
+        return [&work](auto&&... arguments) {
+            const Part part;  // before anything that the caller wrote is read
+            return work(std::forward<decltype(arguments)>(arguments)...);
+        };
+    }
+
+ private:
+    struct Part {
+        Part() { acquire(); }
+        ~Part() { release(); }
+        Part(const Part&) = delete;
+        Part& operator=(const Part&) = delete;
+    };
+
+#if defined(__SANITIZE_THREAD__)
+    static inline char order;  // of all hand-overs
+    static void acquire() { __tsan_acquire(&order); }
+    static void release() { __tsan_release(&order); }
+#else
+    static void acquire() {}
+    static void release() {}
+#endif
+};
+
+/// Calls body(first) ... body(end - 1) on all cores, at least `at_once` of them a task. An
+/// exception stops it, after the calls that have begun.
+template <typename Index, typename Body>
+void parallel_for(Index first, Index end, const Body& body, std::size_t at_once = 1) {
+    if (!(first < end)) return;
+    const auto loop = [&](const tbb::blocked_range<Index>& range) {
+        for (Index i = range.begin(); i < range.end(); ++i) body(i);
+    };
+    const auto given = HandOver::given(loop);
+    const HandOver hand_over;
+    tbb::parallel_for(tbb::blocked_range<Index>(first, end, at_once), given);
+}
+
+/// The same, one call a task: an exception stops it after the calls that have begun.
+template <typename Body>
+void parallel_tasks(int count, const Body& body) {
+    const auto given = HandOver::given(body);
+    const HandOver hand_over;
+    tbb::parallel_for(0, count, given, tbb::simple_partitioner{});
+}
+
+/// Calls work(0) ... work(count - 1) on all cores. When some throw, the others still run, and the
+/// exception of the lowest index is rethrown: the same message on any number of threads.
+template <typename Work>
+void parallel_each(std::size_t count, const Work& work) {
+    std::vector<std::exception_ptr> errors(count);
+    parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+        try {
+            work(i);
+        } catch (...) {
+            errors[i] = std::current_exception();
+        }
+    });
+    for (const std::exception_ptr& error : errors) {
+        if (error) std::rethrow_exception(error);
+    }
+}
+
+/// Calls both, on two cores where there are two.
+template <typename First, typename Second>
+void parallel_invoke(const First& first, const Second& second) {
+    const auto given_first = HandOver::given(first);
+    const auto given_second = HandOver::given(second);
+    const HandOver hand_over;
+    tbb::parallel_invoke(given_first, given_second);
+}
+
+/// The values of 0 ... count - 1, joined: add(i, so_far) and join(a, b), in any order, at least
+/// `at_once` values a task.
+template <typename Value, typename Add, typename Join>
+Value parallel_reduce(std::size_t count, const Value& none, const Add& add, const Join& join,
+                      std::size_t at_once) {
+    using Range = tbb::blocked_range<std::size_t>;
+    const auto loop = [&](const Range& range, Value value) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) value = add(i, value);
+        return value;
+    };
+    const auto given_loop = HandOver::given(loop);
+    const auto given_join = HandOver::given(join);
+    const HandOver hand_over;
+    return tbb::parallel_reduce(Range(0, count, at_once), none, given_loop, given_join);
+}
+
+/// Sorts ascending on all cores; on one for the sanitizer, which would not see how the parts of the
+/// sort are handed over.
+template <typename Values>
+void parallel_sort(Values& values) {
+#if defined(__SANITIZE_THREAD__)
+    std::sort(values.begin(), values.end());
+#else
+    tbb::parallel_sort(values);
+#endif
+}
+
+}  // namespace kilolux
