@@ -172,12 +172,13 @@ TEST(Settings, OfBenchThatChangeItsFramesRefuseAResume) {
 
 // Values set in the panel are kept after the window's end.
 TEST(Settings, OfThePanelComeBack) {
-    const Names panel = {
-        "--renderer", "--samples",    "--show",       "--gbuffer",      "--shading",
-        "--shadows",  "--ambient",    "--exposure",   "--tonemap",      "--bloom",
-        "--rig",      "--lights",     "--light-seed", "--light-radius", "--light-intensity",
-        "--tails",    "--tree-share", "--grid",       "--lanes",        "--light-size",
-        "--emissive-lights"};
+    const Names panel = {"--renderer",   "--samples",      "--show",
+                         "--gbuffer",    "--shading",      "--shadows",
+                         "--ambient",    "--exposure",     "--tonemap",
+                         "--bloom",      "--rig",          "--lights",
+                         "--light-seed", "--light-radius", "--light-intensity",
+                         "--tails",      "--tree-share",   "--grid",
+                         "--lanes",      "--light-size",   "--emissive-lights"};
     auto options = initial<SharedOptions>();
     for (const Setting& setting : settings_of(options)) {
         EXPECT_EQ(setting.text.effect.in_panel, panel.contains(setting.option()))

@@ -72,7 +72,7 @@ def test_emissive_surfaces_light_where_asked(floor):
     positions, indices = floor
     lamp = 0.01 * np.array(positions)  # 4 cm, 1 m above the floor, facing it
     lamp[:, 1] = 1.0
-    meshes = [kilolux.Mesh(positions, indices),
+    meshes = [kilolux.Mesh(positions, indices, material=kilolux.Material(base_color=(1, 1, 1))),
               kilolux.Mesh(lamp, np.array(indices)[:, ::-1], material=kilolux.Material(emissive=(500, 250, 100)))]
 
     def lights(scene, **options):

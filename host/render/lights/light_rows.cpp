@@ -59,7 +59,7 @@ Light row_of(const SceneLight& light, const glm::dvec3& relative) {
 bool is_usable(const SceneLight& light, const glm::dvec3& camera_position) {
     if (!gives_light(light.intensity)) return false;
     const LightKind& kind = kind_of(light);
-    if (is_aimed_light(light) && !has_direction(light.direction)) return false;
+    if ((kind.is_aimed || light.profile >= 0) && !has_direction(light.direction)) return false;
     if (is_area_light(light) && light.profile >= 0) return false;
     const glm::dvec3 relative = light.position - camera_position;
     const bool placed = is_finite(relative) && glm::length(relative) < kFarthest;

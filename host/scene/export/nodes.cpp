@@ -82,7 +82,8 @@ SceneLight with_range(SceneLight light) {
 
 bool is_usable(const SceneLight& light) {
     const glm::dvec3 intensity(light.intensity);
-    const bool aimed = !is_aimed_light(light) ||
+    const LightKind& kind = kind_of(light);
+    const bool aimed = (!kind.is_aimed && light.profile < 0) ||
                        (is_finite(light.direction) && glm::length(light.direction) > 0.0);
     return is_finite(intensity) && std::min({intensity.x, intensity.y, intensity.z}) >= 0.0 &&
            is_finite(light.position) && aimed && has_good_numbers(with_range(light));

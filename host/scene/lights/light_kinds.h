@@ -156,16 +156,6 @@ constexpr bool is_area_light(const SceneLight& light) {
     return kind_of(light).shape != SHAPE_POINT;
 }
 
-/// Whether the light has a direction, by its kind or by a photometric web.
-constexpr bool is_aimed_light(const SceneLight& light) {
-    return kind_of(light).is_aimed || light.profile >= 0;
-}
-
-/// Whether its light depends on how it is turned about its direction.
-constexpr bool has_roll(const SceneLight& light) {
-    return kind_of(light).is_flat || light.profile >= 0;
-}
-
 /// Adds what a scene needs that has the light.
 inline void add_features(SceneFeatures& features, const SceneLight& light) {
     const LightKind& kind = kind_of(light);

@@ -51,7 +51,7 @@ class OwnLights {
     Lights originals_;             // of changed lights
     Lights before_, sent_before_;  // what the scene has of lights to be sent, and of sent ones
     double point_size_, sent_point_size_, scene_point_size_;  // [m]
-    std::vector<std::size_t> counts_;  // by LightType
+    std::vector<std::size_t> counts_;                         // by LightType
     bool has_unranged_ = false;
 };
 

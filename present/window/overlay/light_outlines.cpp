@@ -9,6 +9,7 @@
 #include <glm/gtc/constants.hpp>
 #include <utility>
 
+#include "host/scene/lights/light_aim.h"
 #include "host/scene/lights/light_kinds.h"
 #include "host/scene/lights/light_shape.h"
 #include "host/scene/lights/light_side.h"
@@ -117,18 +118,18 @@ std::vector<const SceneLight*> nearest_area_lights(std::span<const SceneLight> o
         }
     }
     keep_nearest(out, most,
-               [&](const SceneLight* light) { return eye_distance2(camera, light->position); });
+                 [&](const SceneLight* light) { return eye_distance2(camera, light->position); });
     return out;
 }
 
-std::vector<SceneLight> nearest_generated_lights(const GeneratedLights& lights, const Scene& scene,
+std::vector<SceneLight> nearest_generated_lights(const LightSearch& search, const Scene& scene,
                                                  std::size_t most) {
-    const std::uint64_t count = lights.options.count;
-    if (count == 0 || count > kMostSearched || !(lights.options.size > 0.0)) return {};
-    const LightGenerator generator(lights.options, scene, lights.time);
+    const std::uint64_t count = search.options.count;
+    if (count == 0 || count > kMostSearched || !(search.options.size > 0.0)) return {};
+    const LightGenerator generator(search.options, scene, search.time);
     std::vector<std::pair<double, std::uint64_t>> numbers(count);  // by distance
     tbb::parallel_for(std::uint64_t{0}, count, [&](std::uint64_t i) {
-        numbers[i] = {eye_distance2(lights.camera, generator[i].position), i};
+        numbers[i] = {eye_distance2(search.camera, generator[i].position), i};
     });
     keep_nearest(numbers, most, std::identity{});
     std::vector<SceneLight> out;
@@ -137,7 +138,7 @@ std::vector<SceneLight> nearest_generated_lights(const GeneratedLights& lights, 
 }
 
 const std::vector<SceneLight>& LightOutlines::nearest_generated(const PictureRequest& request) {
-    const GeneratedLights wanted{request.settings.lights, request.time, request.camera};
+    const LightSearch wanted{request.settings.lights, request.time, request.camera};
     if (wanted == searched_) return nearest_;
     nearest_ = nearest_generated_lights(wanted, scene_, kMostOutlines);
     searched_ = wanted;

@@ -25,17 +25,17 @@ std::vector<const SceneLight*> nearest_area_lights(std::span<const SceneLight> o
                                                    std::span<const SceneLight> generated,
                                                    const Camera& camera, std::size_t most);
 
-/// The lights that a picture generates, and where it is seen from.
-struct GeneratedLights {
+/// The lights that a picture generates, and the camera that sees them.
+struct LightSearch {
     LightOptions options;
     double time = 0.0;  // [s]
     Camera camera;
-    bool operator==(const GeneratedLights&) const = default;
+    bool operator==(const LightSearch&) const = default;
 };
 
 /// Those of them nearest to the camera, likewise; none where they have no size or are more than
 /// kMostSearched. Runs on all cores. `scene`: its lights are not read.
-std::vector<SceneLight> nearest_generated_lights(const GeneratedLights& lights, const Scene& scene,
+std::vector<SceneLight> nearest_generated_lights(const LightSearch& search, const Scene& scene,
                                                  std::size_t most);
 
 /// Draws outlines over the picture, whatever hides the lights.
@@ -53,7 +53,7 @@ class LightOutlines {
     const std::vector<SceneLight>& nearest_generated(const PictureRequest& request);
 
     const Scene& scene_;
-    GeneratedLights searched_;
+    LightSearch searched_;
     std::vector<SceneLight> nearest_;  // of searched_
 };
 

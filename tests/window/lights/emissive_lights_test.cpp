@@ -38,13 +38,13 @@ Scene glowing_room(bool with_light) {
 class EmissiveLightsOfTheWindow : public testing::Test {
  protected:
     ChildResult view(const Script& script, const std::vector<std::string>& more = {}) const {
-        std::vector<std::string> words = {"view",  room_.string(), "--resolution", "700,420",
-                                          "--rig", "none",         "--samples",    "1",
+        std::vector<std::string> words = {"view",     room_.string(), "--resolution", "700,420",
+                                          "--rig",    "none",         "--samples",    "1",
                                           "--script", script.write()};
         words.insert(words.end(), more.begin(), more.end());
-        return view_in_display({"--chdir=" + folder_.path().string(),
-                                "XDG_CONFIG_HOME=" + folder_.path().string()},
-                               words);
+        return view_in_display(
+            {"--chdir=" + folder_.path().string(), "XDG_CONFIG_HOME=" + folder_.path().string()},
+            words);
     }
     void play_with(const Script& script, std::vector<std::string> more = {}) const {
         more.emplace_back("-q");
@@ -52,9 +52,7 @@ class EmissiveLightsOfTheWindow : public testing::Test {
         ASSERT_EQ(result.code, 0) << result.err << result.out;
         EXPECT_EQ(result.err, "");
     }
-    ScenePart shown(const std::string& name) const {
-        return scene_part(folder_ / (name + ".png"));
-    }
+    ScenePart shown(const std::string& name) const { return scene_part(folder_ / (name + ".png")); }
     // The screenshot shows what the command line renders.
     void expect(const std::string& name, std::vector<std::string> options) const {
         options.insert(options.end(), {"--rig", "none"});

@@ -120,7 +120,7 @@ TEST(LightOutlines, AreThoseOfTheNearest) {
 
 TEST(LightOutlines, AreThoseOfTheNearestGeneratedLights) {
     const Scene scene = box_scene({6.0, 3.0, 6.0}, true);
-    GeneratedLights wanted{.options = {.count = 300, .seed = 3, .size = 0.125}, .time = 7.5};
+    LightSearch wanted{.options = {.count = 300, .seed = 3, .size = 0.125}, .time = 7.5};
     wanted.camera = camera_at({1.0, 0.5, 2.0});
     std::vector<SceneLight> all = generate_lights(wanted.options, scene, wanted.time);
     std::ranges::sort(all, {}, [&](const SceneLight& light) {
@@ -133,7 +133,7 @@ TEST(LightOutlines, AreThoseOfTheNearestGeneratedLights) {
         for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(std::ranges::count(found, all[i]), 1);
     }
     const auto none = [&](auto change) {
-        GeneratedLights changed = wanted;
+        LightSearch changed = wanted;
         change(changed.options);
         return nearest_generated_lights(changed, scene, 40).empty();
     };

@@ -174,10 +174,20 @@ TEST_F(LightsOfTheWindow, PointWhereTheirAnglesSay) {
         if (!is_aimed_light(scene.lights[i])) continue;
         const std::string name = std::to_string(i);
         const double roll = aim_of(scene.lights[i]).roll;
-        expect(name, [&](Scene& s) { set_aim(s.lights[i], {35.0, -25.0, roll}); }, scene);
+        expect(
+            name,
+            [&](Scene& s) {
+                set_aim(s.lights[i], {35.0, -25.0, roll});
+            },
+            scene);
         EXPECT_GT(difference("start", name.c_str()), 1e-4) << i;
     }
-    expect("rolled", [&](Scene& s) { set_aim(s.lights[0], {0.0, -90.0, 90.0}); }, scene);
+    expect(
+        "rolled",
+        [&](Scene& s) {
+            set_aim(s.lights[0], {0.0, -90.0, 90.0});
+        },
+        scene);
     EXPECT_GT(difference("start", "rolled"), 1e-5);
 }
 

@@ -54,12 +54,6 @@ GlowingParts glowing_parts(const Scene& scene) {
     return out;
 }
 
-bool has_glowing_surfaces(const Scene& scene) {
-    return std::ranges::any_of(scene.instances, [&](const Instance& instance) {
-        return glows(material_of(scene, scene.meshes[static_cast<std::size_t>(instance.mesh)]));
-    });
-}
-
 std::string text_of(const GlowCounts& counts) {
     std::string out = fmt::format(
         "{} triangles of {} glowing meshes are {} lights, {} of them rectangles", counts.triangles,

@@ -29,9 +29,6 @@ struct GlowingParts {
 /// Those of the scene itself.
 GlowingParts glowing_parts(const Scene& scene);
 
-/// Whether some surface of the scene would be a light.
-bool has_glowing_surfaces(const Scene& scene);
-
 /// What became lights, and how well these stand for their surfaces.
 struct GlowCounts {
     std::size_t meshes = 0;
