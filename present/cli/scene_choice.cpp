@@ -300,12 +300,6 @@ std::string light_scene(SharedOptions& options, AnimatedScene& scene) {
            choose_tone_curve(options, scene.scene());
 }
 
-bool has_glowing_surfaces(const Scene& scene) {
-    return std::ranges::any_of(scene.instances, [&](const Instance& instance) {
-        return glows(material_of(scene, scene.meshes[static_cast<std::size_t>(instance.mesh)]));
-    });
-}
-
 void choose_emissive_lights(const SharedOptions& options, AnimatedScene& scene) {
     scene.light_by_surfaces(surfaces_light(options, scene.scene()));
 }

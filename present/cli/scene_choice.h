@@ -24,9 +24,6 @@ AnimatedScene open_animated_scene(const SharedOptions& options);
 /// generated lights and the background to the options; returns lines that describe the lights.
 std::string light_scene(SharedOptions& options, AnimatedScene& scene);
 
-/// Whether the scene has surfaces that --emissive-lights could make lights.
-bool has_glowing_surfaces(const Scene& scene);
-
 /// Makes emissive surfaces lights, or no lights, as --emissive-lights says. light_scene() calls it;
 /// call it again for other lights.
 void choose_emissive_lights(const SharedOptions& options, AnimatedScene& scene);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/window/app/scene_lights.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "host/base/log.h"
 #include "host/render/plan/settings_check.h"
+#include "host/scene/lights/glow/mean_emission.h"
 #include "present/cli/scene_choice.h"
 
 namespace kilolux {
@@ -39,6 +41,12 @@ void take_tail_settings(RenderSettings& settings, const RenderSettings& from) {
 }
 
 }  // namespace
+
+bool has_glowing_surfaces(const Scene& scene) {
+    return std::ranges::any_of(scene.instances, [&](const Instance& instance) {
+        return glows(material_of(scene, scene.meshes[static_cast<std::size_t>(instance.mesh)]));
+    });
+}
 
 SceneLights::SceneLights(AnimatedScene& scene, SharedOptions asked, SharedOptions lit, Rig rig)
     : scene_(scene),

@@ -12,6 +12,9 @@
 
 namespace kilolux {
 
+/// Whether the scene has surfaces that --emissive-lights could make lights.
+bool has_glowing_surfaces(const Scene& scene);
+
 /// The scene's own lights, those that a rig adds to them, and those of emissive surfaces. The panel
 /// changes lights and chooses another rig; the worker then replaces the scene's.
 class SceneLights {
@@ -28,7 +31,7 @@ class SceneLights {
     bool fit(const ViewState& state) const;
     /// Whether emissive surfaces light the scene as the state says.
     bool surfaces_fit(const ViewState& state) const;
-    /// Whether the scene has surfaces that could.
+    /// Whether the scene has_glowing_surfaces().
     bool can_glow() const { return can_glow_; }
     /// The state's settings. Automatic tails are replaced by those that light_scene() chose.
     RenderSettings settings_of(const ViewState& state) const;

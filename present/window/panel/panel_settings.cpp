@@ -97,10 +97,10 @@ bool PanelSettings::has_sizes() const {
 void PanelSettings::emissive_lights() const {
     if (!facts.can_glow) return;
     const RenderSettings& s = state.settings;
-    std::vector<std::string> refusals(names_of<EmissiveLights>().size());
-    refusals[static_cast<std::size_t>(EmissiveLights::on)] =
+    std::vector<std::string> problems(names_of<EmissiveLights>().size());
+    problems[static_cast<std::size_t>(EmissiveLights::on)] =
         area_lights_problem(model_of(s.shading), s.shadows);
-    ui.choice("Emissive", state.emissive_lights, names_of<EmissiveLights>(), refusals);
+    ui.choice("Emissive", state.emissive_lights, names_of<EmissiveLights>(), problems);
     ui.tip("Whether emissive surfaces light the others; auto: where nothing else lights");
 }
 

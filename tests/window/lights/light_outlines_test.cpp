@@ -120,7 +120,10 @@ TEST(LightOutlines, AreThoseOfTheNearest) {
 
 TEST(LightOutlines, AreThoseOfTheNearestGeneratedLights) {
     const Scene scene = box_scene({6.0, 3.0, 6.0}, true);
-    LightSearch wanted{.options = {.count = 300, .seed = 3, .size = 0.125}, .time = 7.5};
+    LightSearch wanted;
+    wanted.options.count = 300;
+    wanted.options.size = 0.125;
+    wanted.time = 7.5;
     wanted.camera = camera_at({1.0, 0.5, 2.0});
     std::vector<SceneLight> all = generate_lights(wanted.options, scene, wanted.time);
     std::ranges::sort(all, {}, [&](const SceneLight& light) {

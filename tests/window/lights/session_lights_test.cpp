@@ -342,7 +342,10 @@ TEST_F(LightsOfTheWindow, GeneratedOnesHaveOutlines) {
     const Camera camera = choose_camera({}, scene, kWidth / 420.0);
     const glm::dmat4 clip = clip_from_view(camera, kWidth, 420);
     int expected = 0, drawn = 0;
-    for (const SceneLight& light : generate_lights({.count = 8, .size = 0.2}, scene, 0.0)) {
+    LightOptions generated;
+    generated.count = 8;
+    generated.size = 0.2;
+    for (const SceneLight& light : generate_lights(generated, scene, 0.0)) {
         for (const glm::dvec3& p : outline_of(light, camera)) {
             const glm::dvec3 view = glm::transpose(camera.world_from_view) * (p - camera.position);
             const glm::dvec4 at = clip * glm::dvec4(view, 1.0);
