@@ -68,7 +68,7 @@ TEST(LightAim, TurnsAFlatLightWithItsRoll) {
     for (const double azimuth : {45.0, 200.0, 355.0, 360.0}) {
         set_aim(light, {azimuth, -30.0, 0.0});
         EXPECT_NEAR(edges_of(light).x.y, 0.0, 1e-15) << azimuth;
-        EXPECT_NEAR(edges_of(light).y.y, 0.5 * std::cos(glm::radians(30.0)), 1e-12) << azimuth;
+        EXPECT_NEAR(edges_of(light).y.y, -0.5 * std::cos(glm::radians(30.0)), 1e-12) << azimuth;
     }
     EXPECT_LT(glm::length(light.side - glm::dvec3(1, 0, 0)), 1e-12);
     EXPECT_EQ(light.width, 2.0f);
