@@ -137,7 +137,7 @@ void visit_more_lights(const SettingVisitor& f, SharedOptions& o) {
         .choice({"--emissive-lights", "", "",
                  "Whether emissive surfaces light the others, each triangle as a light with its "
                  "mean emission",
-                 kPicture},
+                 kPanelPicture},
                 o.emissive_lights)
         .value({"--light-box", "X0,Y0,Z0,X1,Y1,Z1", "the scene's", "Where they are", kPicture, "m"},
                s.lights.box, parse_box)
