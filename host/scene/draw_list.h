@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -51,7 +52,9 @@ class DrawList {
         bool blended = false;
         std::uint32_t revision = 0;  // of the mesh when the box was taken
     };
-    const MeshBox& box_of(int mesh) const;
+    struct DrawRequest;
+    void refresh_boxes() const;
+    std::optional<Draw> draw_of(std::size_t number, const DrawRequest& request) const;
 
     const Scene& scene_;
     mutable std::vector<MeshBox> boxes_;  // by mesh; follow their revisions
