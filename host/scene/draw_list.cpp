@@ -108,6 +108,16 @@ void number_triangles(std::vector<Draw>& draws, const Scene& scene) {
     }
 }
 
+// The transform to a system in the camera's place, with the world's axes.
+glm::dmat4 from_camera(const Camera& camera, glm::dmat4 world_from_object) {
+    world_from_object[3] -= glm::dvec4(camera.position, 0.0);
+    return world_from_object;
+}
+
+glm::dmat4 view_axes(const Camera& camera) {
+    return glm::dmat4(glm::transpose(camera.world_from_view));
+}
+
 using Corners = std::array<glm::dvec4, 8>;
 
 Corners corners_of(const Box& box, const glm::dmat4& view_from_box) {
@@ -124,20 +134,23 @@ Corners clipped(Corners corners, const glm::dmat4& clip_from_view) {
 }
 
 // Whether all corners, in clip space, lie outside one plane of the frustum, by more than what
-// float32 vertices and the rasteriser's snapping can move them.
+// float32 vertices and the rasteriser's snapping can move them. Without branches, which no
+// processor foresees here.
 bool outside(const Corners& corners) {
     constexpr double kSlack = 1e-4;
-    std::array<int, 6> count{};
+    unsigned planes = 0x3f;  // a bit for each that all corners so far are outside of
     for (const glm::dvec4& c : corners) {
         const double slack =
-            kSlack * (std::abs(c.x) + std::abs(c.y) + std::abs(c.z) + std::abs(c.w));
+            -kSlack * (std::abs(c.x) + std::abs(c.y) + std::abs(c.z) + std::abs(c.w));
         const std::array<double, 6> inside = {c.w - c.x, c.w + c.x, c.w - c.y,
                                               c.w + c.y, c.w - c.z, c.z};
-        for (std::size_t plane = 0; plane < 6; ++plane) {
-            if (inside[plane] < -slack) ++count[plane];
+        unsigned outside_of = 0;
+        for (unsigned plane = 0; plane < 6; ++plane) {
+            outside_of |= static_cast<unsigned>(inside[plane] < slack) << plane;
         }
+        planes &= outside_of;
     }
-    return std::find(count.begin(), count.end(), 8) != count.end();
+    return planes != 0;
 }
 
 // Where the box of the corners, in clip space, may be seen.
@@ -180,6 +193,7 @@ void sort_draws(std::vector<Draw>& draws, DrawOrder order) {
 // What visible() is asked for.
 struct DrawList::DrawRequest {
     const Camera& camera;
+    glm::dmat4 view_from_camera;  // turns the axes
     glm::dmat4 clip_from_view;
     glm::dvec2 size;  // of the picture [pixel]
     bool blended;
@@ -215,11 +229,15 @@ std::optional<Draw> DrawList::draw_of(std::size_t number, const DrawRequest& req
     const Instance& instance = scene_.instances[number];
     const MeshBox& mesh = boxes_[static_cast<std::size_t>(instance.mesh)];
     if (mesh.blended != request.blended || mesh.box.empty()) return {};
-    const glm::dmat4 transform = view_from_object(request.camera, instance.world_from_object);
+    const glm::dmat4 transform =
+        request.view_from_camera * from_camera(request.camera, instance.world_from_object);
     const Corners corners = corners_of(mesh.box, transform);
     const Corners clip_corners = clipped(corners, request.clip_from_view);
     if (outside(clip_corners)) return {};
-    const ScreenBox screen = screen_box(clip_corners, request.size);
+    // Who draws all tiles of opaque surfaces does not ask for it.
+    const ScreenBox screen = request.blended || request.open != nullptr
+                                 ? screen_box(clip_corners, request.size)
+                                 : ScreenBox();
     if (request.open != nullptr && !request.open->touches(screen.least, screen.most)) return {};
     double nearest = std::numeric_limits<double>::infinity();
     double sum = 0.0;
@@ -236,8 +254,13 @@ std::optional<Draw> DrawList::draw_of(std::size_t number, const DrawRequest& req
 std::vector<Draw> DrawList::visible(const Camera& camera, int width, int height, bool blended,
                                     DrawOrder order, const OpenTiles* open) const {
     refresh_boxes();
-    const DrawRequest request{
-        camera, clip_from_view(camera, width, height), {width, height}, blended, order, open};
+    const DrawRequest request{camera,
+                              view_axes(camera),
+                              clip_from_view(camera, width, height),
+                              {width, height},
+                              blended,
+                              order,
+                              open};
     const std::size_t count = scene_.instances.size();
     std::vector<std::vector<Draw>> parts((count + kInstancesAtOnce - 1) / kInstancesAtOnce);
     tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t part) {
@@ -255,9 +278,7 @@ std::vector<Draw> DrawList::visible(const Camera& camera, int width, int height,
 }
 
 glm::dmat4 view_from_object(const Camera& camera, const glm::dmat4& world_from_object) {
-    glm::dmat4 relative = world_from_object;
-    relative[3] -= glm::dvec4(camera.position, 0.0);
-    return glm::dmat4(glm::transpose(camera.world_from_view)) * relative;
+    return view_axes(camera) * from_camera(camera, world_from_object);
 }
 
 }  // namespace kilolux
