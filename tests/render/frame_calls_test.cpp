@@ -31,7 +31,8 @@ TEST(FrameCalls, AFrameWaitsOnceAndMakesFewLaunches) {
         const ClCalls calls = calls_of_frame(settings);
         EXPECT_EQ(calls.blocking_reads, 0) << static_cast<int>(kind);
         EXPECT_EQ(calls.finishes, 1) << static_cast<int>(kind) << ": for the picture";
-        EXPECT_LE(calls.launches, kind == RendererKind::deferred ? 27 : 11) << static_cast<int>(kind);
+        EXPECT_LE(calls.launches, kind == RendererKind::deferred ? 27 : 11)
+            << static_cast<int>(kind);
     }
 }
 
