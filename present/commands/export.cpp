@@ -37,7 +37,7 @@ Scene scene_to_export(ExportOptions& options) {
     SharedOptions& shared = options.shared;
     Scene scene = open_scene(shared);
     const Camera camera = choose_camera(shared, scene);
-    const LightMix& mix = shared.settings.light_mix;
+    const GroupMix& mix = shared.settings.light_mix;
     const auto generated =
         generate_lights(mixed_generated(shared.settings.lights, scene, mix), scene, shared.time);
     scene.lights = mixed_lights(scene, mix);

@@ -97,7 +97,7 @@ void LightSource::set_groups(const std::vector<LightGroup>& groups) {
     is_ordered_ = false;
 }
 
-void LightSource::set_mix(const LightMix& mix) {
+void LightSource::set_mix(const GroupMix& mix) {
     if (mix == mix_) return;
     mix_ = mix;
     revision_.reset();

@@ -84,7 +84,7 @@ std::string text_of(const std::vector<GroupGain>& gains) {
     return out;
 }
 
-void check_light_mix(const LightMix& mix) {
+void check_light_mix(const GroupMix& mix) {
     const std::vector<std::string> names = names_of(mix.groups);
     for (const GroupGain& gain : mix.gains) {
         if (std::ranges::count(names, gain.name) > 0) continue;
@@ -93,7 +93,7 @@ void check_light_mix(const LightMix& mix) {
     }
 }
 
-std::vector<glm::vec3> factors_of(const LightMix& mix) {
+std::vector<glm::vec3> factors_of(const GroupMix& mix) {
     std::vector<glm::vec3> out(1 + mix.groups.size(), glm::vec3(1.0f));
     for (const GroupGain& gain : mix.gains) {
         const auto found = std::ranges::find(mix.groups, gain.name, &LightGroup::name);
@@ -104,12 +104,12 @@ std::vector<glm::vec3> factors_of(const LightMix& mix) {
     return out;
 }
 
-std::vector<SceneLight> mixed_lights(const Scene& scene, const LightMix& mix) {
+std::vector<SceneLight> mixed_lights(const Scene& scene, const GroupMix& mix) {
     GroupNumbers groups;
     return mixed_lights(scene, mix, groups);
 }
 
-std::vector<SceneLight> mixed_lights(const Scene& scene, const LightMix& mix,
+std::vector<SceneLight> mixed_lights(const Scene& scene, const GroupMix& mix,
                                      GroupNumbers& groups) {
     std::vector<SceneLight> out = scene.lights;
     if (mix.gains.empty()) return out;
@@ -119,7 +119,7 @@ std::vector<SceneLight> mixed_lights(const Scene& scene, const LightMix& mix,
     return out;
 }
 
-LightOptions mixed_generated(LightOptions generated, const Scene& scene, const LightMix& mix) {
+LightOptions mixed_generated(LightOptions generated, const Scene& scene, const GroupMix& mix) {
     if (mix.gains.empty()) return generated;
     generated.gain = factors_of(mix)[group_of(generated_light(generated), scene, mix.groups)];
     return generated;

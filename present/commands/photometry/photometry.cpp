@@ -90,7 +90,7 @@ std::vector<std::size_t> keep_usable(std::vector<SceneLight>& lights, const std:
 LitScene lit_scene(SharedOptions& shared) {
     Scene scene = open_scene(shared);
     const Camera camera = choose_camera(shared, scene);
-    const LightMix& mix = shared.settings.light_mix;
+    const GroupMix& mix = shared.settings.light_mix;
     const auto generated =
         generate_lights(mixed_generated(shared.settings.lights, scene, mix), scene, shared.time);
     scene.lights = mixed_lights(scene, mix);
