@@ -84,7 +84,6 @@ ViewState start_state(const ViewOptions& options, const CLI::App& command, State
     state.settings.background = options.shared.shown_background;
     state.settings.reflections = options.shared.maps;
     state.settings.want.aovs.clear();
-    state.settings.light_groups.clear();
     state.settings.want.probes = true;
     state.settings.want.radiance = false;
     // Pictures that are counted are made one by one, each complete.
@@ -171,6 +170,7 @@ void visit_settings(ViewOptions& options, const SettingVisitor& f) {
 
 void add_view_options(CLI::App& command, ViewOptions& options) {
     options.shared.shows_environment = true;
+    options.shared.takes_light_layers = false;
     add_options(command, options);
     leave_to_help_all(command, {"--aov"});
 }

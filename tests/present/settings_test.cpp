@@ -108,7 +108,7 @@ TEST(Settings, ReachEveryMember) {
         BOTH(samples), BOTH(auto_samples.error), BOTH(auto_samples.most), BOTH(want.view),
         BOTH(want.aovs), BOTH(grid.tiles_x), BOTH(grid.tiles_y), BOTH(grid.slices_per_octave),
         BOTH(grid.fine_per_octave), BOTH(kernels.lanes), BOTH(kernels.math),
-        BOTH(kernels.light_colors), BOTH(max_memory_bytes), BOTH(device));
+        BOTH(kernels.light_colors), BOTH(light_mix.gains), BOTH(max_memory_bytes), BOTH(device));
 #undef BOTH
     for (std::size_t i = 0; i < reached.size(); ++i) EXPECT_TRUE(reached[i]) << "member " << i;
 }

@@ -167,6 +167,7 @@ LightSwarm make_swarm(const LightOptions& options, const std::vector<Box>& parts
                    low_half(options.seed),
                    static_cast<float>(options.intensity),
                    static_cast<uint>(parts.size()),
+                   {options.gain.x, options.gain.y, options.gain.z, 0.0f},
                    {}};
     double all = 0.0, sum = 0.0;
     for (const Box& part : parts) all += volume(part);
@@ -230,7 +231,7 @@ SceneLight LightGenerator::operator[](std::uint64_t light) const {
         const double at = box.min[axis] + share * (box.max[axis] - box.min[axis]);
         out.position[axis] = std::clamp(at, box.min[axis], box.max[axis]);
     }
-    const float4 intensity = drift_intensity(drift);
+    const float4 intensity = drift_intensity(&swarm_, drift);
     out.intensity = {intensity.x, intensity.y, intensity.z};
     out.range = static_cast<float>(options_.radius);
     out.radius = static_cast<float>(options_.size);

@@ -28,6 +28,7 @@ SharedOptions with_rig(SharedOptions asked, Rig rig) {
 void take_lit(RenderSettings& settings, const SharedOptions& lit) {
     settings.lights.count = lit.settings.lights.count;
     settings.ambient = lit.settings.ambient;
+    settings.light_mix.groups = lit.settings.light_mix.groups;
     settings.background = lit.shown_background;
     settings.reflections = lit.maps;
 }
@@ -38,6 +39,7 @@ void take_tail_settings(RenderSettings& settings, const RenderSettings& from) {
     settings.renderer = from.renderer;
     settings.shadows = from.shadows;
     settings.shading = from.shading;
+    settings.light_mix.gains = from.light_mix.gains;
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "present/cli/scene_choice.h"
 #include "present/window/app/command_text.h"
 #include "present/window/panel/key_bindings.h"
+#include "present/window/panel/panel_groups.h"
 #include "present/window/panel/panel_lights.h"
 #include "present/window/panel/panel_settings.h"
 #include "present/window/panel/panel_stats.h"
@@ -240,6 +241,7 @@ void ViewSession::reset_settings() {
     fresh.settings = SharedOptions().settings;
     fresh.settings.samples = kRestSamples;
     fresh.settings.device = state_.settings.device;
+    fresh.settings.light_mix.groups = state_.settings.light_mix.groups;
     fresh.settings.background = lights_.options().shown_background;
     fresh.settings.reflections = lights_.options().maps;
     fresh.window_size = state_.window_size;
@@ -308,6 +310,7 @@ void ViewSession::describe_panel(Actions& actions) {
     settings.picture();
     settings.lights();
     PanelLights{settings}.own_lights(steering_.rig());
+    PanelGroups{settings}.groups();
     stats.speed();
     settings.clusters();
     settings.camera(steering_.rig());

@@ -42,7 +42,7 @@ struct Place {
 
 // A swarm of several boxes with equal shares of the lights.
 LightSwarm swarm_of(const std::vector<Place>& places, float range = 2.5f, uint seed = 11) {
-    LightSwarm out{0, seed, 8.0f, static_cast<uint>(places.size()), {}};
+    LightSwarm out{0, seed, 8.0f, static_cast<uint>(places.size()), {0.5f, 1.0f, 3.0f, 0.0f}, {}};
     for (std::size_t i = 0; i < places.size(); ++i) {
         const auto& [min, extent, rate] = places[i];
         const PointPair corner = point_pair(min[0], min[1], min[2]);

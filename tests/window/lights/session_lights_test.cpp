@@ -207,6 +207,33 @@ TEST_F(LightsOfTheWindow, HaveTheAnglesOfTheirKind) {
     }
 }
 
+// Groups have faders; what they show is what the copied command renders.
+TEST_F(LightsOfTheWindow, HaveGainsInGroups) {
+    const std::vector<std::string> groups = {"--light-groups",
+                                             "round=kind:sphere,flat=kind:rect+kind:disk"};
+    Script script(folder_);
+    script.line("open light groups").line("away").shot("start");
+    script.line("type mix flat 0.5").line("type mix rest 2").line("away").shot("dimmed");
+    script.line("click mix round mute").line("away").shot("mute");
+    script.line("slide mix round 1").line("type mix flat 1").line("away").shot("again");
+    script.line("click mix reset").line("away").shot("reset");
+    play_with(script, groups);
+    const auto expect_mix = [&](const char* name, const char* mix) {
+        std::vector<std::string> options = {"--rig", "none", "--light-mix", mix};
+        options.insert(options.end(), groups.begin(), groups.end());
+        EXPECT_EQ(scene_part(folder_ / (std::string(name) + ".png")).values,
+                  rendered(folder_ / "rendered.png", options, room_.string()).values)
+            << name;
+    };
+    expect_mix("start", "none");
+    expect_mix("dimmed", "flat=0.5,rest=2");
+    expect_mix("mute", "flat=0.5,rest=2,round=0");
+    expect_mix("again", "rest=2");
+    EXPECT_GT(difference("start", "dimmed"), 1e-3);
+    EXPECT_GT(difference("dimmed", "mute"), 1e-6);
+    EXPECT_EQ(difference("start", "reset"), 0.0);
+}
+
 // Generated lights, and the file's points, are those of --light-size.
 TEST_F(LightsOfTheWindow, GetASize) {
     write_scene(lit_room(false), room_);
