@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/draw_list.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +10,7 @@
 
 #include "host/base/error.h"
 #include "host/base/point_pair.h"
+#include "host/base/system/parallel.h"
 
 namespace kilolux {
 namespace {
@@ -263,7 +262,7 @@ std::vector<Draw> DrawList::visible(const Camera& camera, int width, int height,
                               open};
     const std::size_t count = scene_.instances.size();
     std::vector<std::vector<Draw>> parts((count + kInstancesAtOnce - 1) / kInstancesAtOnce);
-    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t part) {
+    parallel_for(std::size_t{0}, parts.size(), [&](std::size_t part) {
         const std::size_t begin = part * kInstancesAtOnce;
         for (std::size_t i = begin; i < std::min(begin + kInstancesAtOnce, count); ++i) {
             if (auto draw = draw_of(i, request)) parts[part].push_back(*draw);

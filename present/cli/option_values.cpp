@@ -7,6 +7,7 @@
 
 #include "host/base/error.h"
 #include "host/base/formats/color_text.h"
+#include "host/base/formats/srgb.h"
 #include "host/base/suggest.h"
 #include "present/cli/sequence.h"
 

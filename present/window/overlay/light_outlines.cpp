@@ -2,13 +2,13 @@
 #include "present/window/overlay/light_outlines.h"
 
 #include <imgui.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <functional>
 #include <glm/gtc/constants.hpp>
 #include <utility>
 
+#include "host/base/system/parallel.h"
 #include "host/scene/lights/light_aim.h"
 #include "host/scene/lights/light_kinds.h"
 #include "host/scene/lights/light_shape.h"
@@ -128,7 +128,7 @@ std::vector<SceneLight> nearest_generated_lights(const LightSearch& search, cons
     if (count == 0 || count > kMostSearched || !(search.options.size > 0.0)) return {};
     const LightGenerator generator(search.options, scene, search.time);
     std::vector<std::pair<double, std::uint64_t>> numbers(count);  // by distance
-    tbb::parallel_for(std::uint64_t{0}, count, [&](std::uint64_t i) {
+    parallel_for(std::uint64_t{0}, count, [&](std::uint64_t i) {
         numbers[i] = {eye_distance2(search.camera, generator[i].position), i};
     });
     keep_nearest(numbers, most, std::identity{});

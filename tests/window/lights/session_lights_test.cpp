@@ -219,13 +219,16 @@ TEST_F(LightsOfTheWindow, HaveGainsInGroups) {
     script.line("click mix reset").line("away").shot("reset");
     play_with(script, groups);
     const auto expect_mix = [&](const char* name, const char* mix) {
-        std::vector<std::string> options = {"--rig", "none", "--light-mix", mix};
-        options.insert(options.end(), groups.begin(), groups.end());
+        std::vector<std::string> options = {"--rig", "none"};
+        if (mix != nullptr) {
+            options.insert(options.end(), {"--light-mix", mix});
+            options.insert(options.end(), groups.begin(), groups.end());
+        }
         EXPECT_EQ(scene_part(folder_ / (std::string(name) + ".png")).values,
                   rendered(folder_ / "rendered.png", options, room_.string()).values)
             << name;
     };
-    expect_mix("start", "none");
+    expect_mix("start", nullptr);
     expect_mix("dimmed", "flat=0.5,rest=2");
     expect_mix("mute", "flat=0.5,rest=2,round=0");
     expect_mix("again", "rest=2");
@@ -385,7 +388,7 @@ TEST_F(LightsOfTheWindow, GeneratedOnesHaveOutlines) {
             drawn += is_drawn;
         }
     }
-    EXPECT_GT(expected, 100) << "most of the lights are in view";
+    EXPECT_GT(expected, 50) << "several of the lights are in view";
     EXPECT_EQ(drawn, expected);
     int changed = 0;
     for (int i = 0; i < kWidth * kHeight; ++i) changed += is_changed(i % kWidth, i / kWidth);
