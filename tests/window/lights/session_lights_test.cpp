@@ -358,7 +358,7 @@ TEST_F(LightsOfTheWindow, GeneratedOnesHaveOutlines) {
     script.shot("none").line("click outlines").line("away").shot("all");
     script.line("slide size 0").line("away").shot("points").line("click outlines").line("away");
     script.shot("again");
-    play_with(script, {"--lights", "8", "--light-size", "0.2"});
+    play_with(script, {"--lights", "20", "--light-size", "0.2"});
     EXPECT_EQ(difference("points", "again"), 0.0) << "points have none";
     constexpr int kWidth = 700 - kPanel, kHeight = 420 - kUnderlay;
     const ScenePart before = scene_part(folder_ / "none.png");
@@ -373,7 +373,7 @@ TEST_F(LightsOfTheWindow, GeneratedOnesHaveOutlines) {
     const glm::dmat4 clip = clip_from_view(camera, kWidth, 420);
     int expected = 0, drawn = 0;
     LightOptions generated;
-    generated.count = 8;
+    generated.count = 20;
     generated.size = 0.2;
     for (const SceneLight& light : generate_lights(generated, scene, 0.0)) {
         for (const glm::dvec3& p : outline_of(light, camera)) {
