@@ -82,7 +82,7 @@ std::size_t triangles_of(const Scene& scene, int mesh) {
     return scene.meshes[static_cast<std::size_t>(mesh)].indices.size() / 3;
 }
 
-// Casters are the triangles of all instances, in their order, which draws still have.
+// Numbers casters, the triangles of all instances, along the instances: before draws are sorted.
 void number_casters(std::vector<Draw>& draws, const Scene& scene) {
     std::size_t first = 0, next = 0;  // the next instance, and its first triangle
     for (Draw& draw : draws) {
@@ -223,7 +223,7 @@ void DrawList::refresh_boxes() const {
     }
 }
 
-// The draw of an instance, if the camera may see it; without its number of triangles.
+// The draw of an instance, if the camera may see it; its ids are numbered later.
 std::optional<Draw> DrawList::draw_of(std::size_t number, const DrawRequest& request) const {
     const Instance& instance = scene_.instances[number];
     const MeshBox& mesh = boxes_[static_cast<std::size_t>(instance.mesh)];
@@ -233,7 +233,7 @@ std::optional<Draw> DrawList::draw_of(std::size_t number, const DrawRequest& req
     const Corners corners = corners_of(mesh.box, transform);
     const Corners clip_corners = clipped(corners, request.clip_from_view);
     if (outside(clip_corners)) return {};
-    // Who draws all tiles of opaque surfaces does not ask for it.
+    // Opaque draws need it only to skip closed tiles.
     const ScreenBox screen = request.blended || request.open != nullptr
                                  ? screen_box(clip_corners, request.size)
                                  : ScreenBox();

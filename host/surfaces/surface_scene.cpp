@@ -112,8 +112,9 @@ SurfaceBuffers SurfaceScene::at(std::span<const Draw> draws) {
     drawn_.read = start_upload(gpu_, instances_.reserve(drawn_.rows.size()), drawn_.rows);
     // The camera moves rows, and seldom changes which instances there are.
     if (blocks != drawn_.blocks) {
+        const DeviceArray<uint> room = blocks_.reserve(blocks.size());
         drawn_.blocks = std::move(blocks);
-        drawn_.read = start_upload(gpu_, blocks_.reserve(drawn_.blocks.size()), drawn_.blocks);
+        drawn_.read = start_upload(gpu_, room, drawn_.blocks);
     }
     return {instances_.get(), blocks_.get(),    meshes_.get(),   vertices_.get(),
             indices_.get(),   materials_.get(), textures_.get(), texels_.get()};

@@ -184,12 +184,12 @@ static inline void store_words(uint first, uint end, local GroupWalk* walk, glob
     }
 }
 
-// Gathers the points that face the light, and their box: few of a cluster do, and items without one
-// would wait for the others. Returns how many the item has.
-static inline uint gather_faced(ClusterCast cast, ShadowLight light, global const uint* words,
+// Gathers the points that face the light, about a third of a cluster's, so that all items are busy,
+// and their box.
+static inline void gather_faced(ClusterCast cast, ShadowLight light, global const uint* words,
                                 ShadowPoints* points, local GroupWalk* walk) {
     LaneBox box = no_box();
-    uint count = 0u;
+    bool any = false;
 #pragma unroll
     for (uint k = 0; k < SHADOW_POINTS; ++k) {
         if (k >= points->row_count) continue;
@@ -206,17 +206,17 @@ static inline uint gather_faced(ClusterCast cast, ShadowLight light, global cons
         uint i = atomic_inc(&walk->faced);
         walk->places[i] = (uchar)place;
         walk->x[i] = p.x, walk->y[i] = p.y, walk->z[i] = p.z;
-        ++count;
+        any = true;
     }
-    if (count > 0u) {
+    if (any) {
         grow_box(&walk->box, box);
         walk->lit = 1u;
     }
-    return count;
 }
 
-// The item's gathered points, all of them lit.
-static inline void load_faced(ShadowLight light, local const GroupWalk* walk, ShadowPoints* to) {
+// The item's gathered points, all of them lit; their number.
+static inline uint load_faced(ShadowLight light, local const GroupWalk* walk, ShadowPoints* to) {
+    uint count = 0u;
     to->row_count = (walk->faced + GROUP - 1u) / GROUP;
 #pragma unroll
     for (uint k = 0; k < SHADOW_POINTS; ++k) {
@@ -228,7 +228,9 @@ static inline void load_faced(ShadowLight light, local const GroupWalk* walk, Sh
         to->x[k] = p.x, to->y[k] = p.y, to->z[k] = p.z;
         to->ex[k] = e.x, to->ey[k] = e.y, to->ez[k] = e.z;
         to->lit[k] = as_float(lane_mask(i < walk->faced));
+        if (i < walk->faced) ++count;
     }
+    return count;
 }
 
 // Sets the flags of the item's points that are lit; their number.
@@ -256,11 +258,11 @@ static inline void cast_light(ClusterCast cast, uint j, local GroupWalk* walk,
     empty_box(&walk->box);
     for (uint i = cast.first + this_item(); i < cast.end; i += GROUP) walk->flags[i] = 0u;
     barrier(CLK_LOCAL_MEM_FENCE);  // empty before any adds to it
-    uint rays = gather_faced(cast, light, words, points, walk);
+    gather_faced(cast, light, words, points, walk);
     barrier(CLK_LOCAL_MEM_FENCE);  // all are gathered
     ShadowPoints faced;
     reset_counts(&faced);
-    load_faced(light, walk, &faced);
+    uint rays = load_faced(light, walk, &faced);
     Shaft shaft = make_shaft(light, box_end(walk->box.low), box_end(walk->box.high));
     cast_shadows_of_group(cast.scene, light, shaft, walk, &faced);
     count_rays(&faced, 0ul, rays, flag_lit(&faced, walk));

@@ -11,8 +11,8 @@
 //   bin_triangles_fill    writes the triangles' numbers
 //
 // GROUP == 1: a work-item walks a chunk, VW triangles at once, and lists ascend. Else a work-group
-// takes GROUP triangles, and atomics count the pairs of all up and, filling, down to 0 again, where
-// the next picture begins: lists have any order. The raster's result does not depend on it, since
+// takes GROUP triangles; set-up counts each tile's pairs up, filling counts them down to 0, so that
+// the next picture needs no clear, and lists have any order. The raster's result does not depend on it, since
 // the first by number of equally near triangles wins.
 #ifndef GROUP
 #define GROUP 1

@@ -26,8 +26,9 @@ void check_reflections(const SharedOptions& options) {
 
 // A new member does not compile here: add a row below, then its name. Members without a row are set
 // elsewhere: by the renderer (opened, background, reflections), by tests (force_features,
-// band_rows, kernels.chunks, kernels.group_height), by the scene (groups, lights.gain), and by the
-// window and the commands (grid.fine_per_octave, memory_shares and the rest of want).
+// band_rows, kernels.chunks, kernels.group_height), by the scene (groups), by mixed_generated()
+// (lights.gain), and by the window and the commands (grid.fine_per_octave, memory_shares and the
+// rest of want).
 void count_members(SharedOptions& options) {
     [[maybe_unused]] auto& [scene, load, settings, rig, emissive_lights, light_groups,
                             no_light_layers, takes_light_layers, environment, background,

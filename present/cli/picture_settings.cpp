@@ -72,7 +72,7 @@ void visit_picture(const SettingVisitor& f, SharedOptions& o) {
                 kPicture},
                s.light_mix.gains, parse_light_mix)
         .flag("--no-light-layers", o.no_light_layers,
-              "No layers of --light-groups, which then cost nothing: --light-mix uses the groups",
+              "No layers of --light-groups: they serve --light-mix only, and cost nothing",
               kPicture)
         .choice({"--aov-layer", "", "", "Of which surfaces --aov and --show tell", kPicture},
                 s.want.layer);

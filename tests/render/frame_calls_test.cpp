@@ -23,7 +23,7 @@ ClCalls calls_of_frame(const RenderSettings& settings) {
     return cl_calls() - before;
 }
 
-TEST(FrameCalls, AFrameWaitsOnceAndMakesFewLaunches) {
+TEST(FrameCalls, AFrameHasFewLaunchesAndNoBlockingRead) {
     RenderSettings settings = small_settings(64, 48, 200);
     settings.geometry = Geometry::compute;
     for (const RendererKind kind : {RendererKind::deferred, RendererKind::deferred_all}) {

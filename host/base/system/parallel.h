@@ -8,6 +8,7 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <exception>
 #include <utility>
 #include <vector>
@@ -19,9 +20,9 @@ extern "C" void __tsan_release(void* address);
 
 namespace kilolux {
 
-/// Tells the sanitizer for threads that work on other threads runs after what the caller did before
-/// and before what the caller does next, from its last variable on: oneTBB, which hands it over, is
-/// not instrumented. Nothing in other builds.
+/// Tells the sanitizer for threads that a loop's bodies run after this object's construction and
+/// before its destruction, which it cannot see, as oneTBB is not instrumented. Declare it last.
+/// Does nothing in other builds.
 class HandOver {
  public:
     HandOver() { release(); }
@@ -56,8 +57,8 @@ class HandOver {
 #endif
 };
 
-/// Calls body(first) ... body(end - 1) on all cores, at least `at_once` of them a task. An
-/// exception stops it, after the calls that have begun.
+/// Calls body(first) ... body(end - 1) on all cores, half of `at_once` to `at_once` of them a task.
+/// An exception stops it, after the tasks that have begun.
 template <typename Index, typename Body>
 void parallel_for(Index first, Index end, const Body& body, std::size_t at_once = 1) {
     if (!(first < end)) return;

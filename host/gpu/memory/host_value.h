@@ -11,25 +11,28 @@
 
 namespace kilolux {
 
-/// A number, or a few, that the device computes, on its way to the host: what is enqueued between
+/// A small value on the device, copied to the host without blocking. Work that is enqueued between
 /// start() and get() keeps the device busy while the host waits.
 template <typename T>
 class HostValue {
  public:
     explicit HostValue(const Gpu& gpu)
-        : queue_(gpu.queue), memory_(std::make_unique<PinnedMemory>(gpu)) {}
+        : queue_(gpu.queue), memory_(std::make_unique<PinnedMemory>(gpu)) {
+        memory_->reserve(sizeof(T));  // waits for the device, so not in start()
+    }
 
     /// Enqueues the copy of `value`, one element, which counts to `stage`. The array may be written
     /// and released afterwards.
     void start(const DeviceArray<T>& value, std::string_view stage, StageTimer& timer) {
-        void* to = memory_->reserve(sizeof(T));
-        done_.emplace();
-        queue_.enqueueReadBuffer(value.buffer(), CL_FALSE, 0, sizeof(T), to, nullptr, &*done_);
-        timer.record(stage, *done_);
+        cl::Event done;
+        queue_.enqueueReadBuffer(value.buffer(), CL_FALSE, 0, sizeof(T),
+                                 memory_->template data<T>(), nullptr, &done);
+        timer.record(stage, done);
+        done_ = done;
     }
     bool is_started() const { return done_.has_value(); }
 
-    /// What start() copied. Waits for it.
+    /// What start(), which was called before, copied. Waits for it.
     T get() const {
         done_->wait();
         return *memory_->template data<T>();

@@ -62,7 +62,8 @@ std::vector<Dimension> dimensions_of(const DeviceInfo& device, bool shadows) {
         {"light_group", &Tuning::light_group, {32, 64, 128, 256}},
         {"prefix_group", &Tuning::prefix_group, {64, 128, 256, 512}},
         {"prefix_per_item", &Tuning::prefix_per_item, {4, 8, 16}}};
-    if (shadows) out.push_back({"shadow_group", &Tuning::shadow_group, {32, 64, 128, 256}});
+    // 256 need more local memory than OpenCL promises, where lights have a size.
+    if (shadows) out.push_back({"shadow_group", &Tuning::shadow_group, {32, 64, 128}});
     return out;
 }
 

@@ -22,7 +22,7 @@ constexpr bool has_roll(const SceneLight& light) {
 struct LightAim {
     double azimuth = 0.0;    // the way that it shines, seen from above: 0 is -Z, 90 is +X
     double elevation = 0.0;  // of that way over the horizon, -90 to 90: 90 is +Y
-    double roll = 0.0;       // of its side about that way: 0 is level; looking along it, 90 is up
+    double roll = 0.0;       // 0: the side is level, to the right; 90: it points up
     bool operator==(const LightAim&) const = default;
 };
 

@@ -57,7 +57,8 @@ std::vector<GroupGain> parse_light_mix(const std::string& option, const std::str
     if (text.empty() || text == "none") return out;
     std::vector<std::string> parts;  // "a=1:1,0.5,0" has commas, too
     for (const std::string_view word : split(text, ',')) {
-        const bool goes_on = !parts.empty() && word.find('=') == std::string_view::npos;
+        const bool goes_on = !parts.empty() && word.find('=') == std::string_view::npos &&
+                             parts.back().find(':') != std::string::npos;
         if (goes_on) {
             parts.back() += ',' + std::string(word);
         } else {
@@ -88,8 +89,9 @@ void check_light_mix(const GroupMix& mix) {
     const std::vector<std::string> names = names_of(mix.groups);
     for (const GroupGain& gain : mix.gains) {
         if (std::ranges::count(names, gain.name) > 0) continue;
-        throw UsageError(fmt::format("light mix: '{}' is none of the light groups {}{}", gain.name,
-                                     joined(names), did_you_mean(gain.name, names)));
+        throw UsageError(fmt::format("light mix: '{}' is none of the light groups {}{}{}",
+                                     gain.name, joined(names), did_you_mean(gain.name, names),
+                                     mix.groups.empty() ? "; --light-groups names some" : ""));
     }
 }
 

@@ -18,9 +18,8 @@ struct GroupGain {
     bool operator==(const GroupGain&) const = default;
 };
 
-/// Gains of groups of lights. Every part of the program that reads intensities of lights reads them
-/// from mixed_lights() and mixed_generated(): the picture is that of a scene whose lights have
-/// these intensities.
+/// Gains of groups of lights: the picture is that of a scene whose lights have the intensities of
+/// mixed_lights() and mixed_generated().
 struct GroupMix {
     std::vector<GroupGain> gains;    // groups without one keep their light
     std::vector<LightGroup> groups;  // of the scene, all of them
@@ -40,7 +39,7 @@ std::vector<glm::vec3> factors_of(const GroupMix& mix);
 
 /// The scene's lights with the intensities that the mix gives them.
 std::vector<SceneLight> mixed_lights(const Scene& scene, const GroupMix& mix);
-/// The same again and again: `groups` keeps which lights are in which.
+/// The same; `groups` keeps each light's group from call to call.
 std::vector<SceneLight> mixed_lights(const Scene& scene, const GroupMix& mix, GroupNumbers& groups);
 
 /// What makes the generated lights with the intensities that the mix gives them.

@@ -23,7 +23,7 @@ struct ListTotals {
 ///
 ///     count_pairs.enqueue(...);
 ///     ...                                            // what the device does meanwhile
-///     const PairCounts counts = count_pairs.read();  // the frame's only wait
+///     const PairCounts counts = count_pairs.read();  // waits for the counts
 ///     const bool coarse = cull.fits(counts.coarse_pairs), active =
 ///     bin.fits(counts.active_clusters); const bool complete = coarse && active &&
 ///     refine.fits(counts.refine_tests);

@@ -8,8 +8,8 @@
 namespace kilolux {
 namespace {
 
-// One launch while no work-item loads more counts of other blocks. NVIDIA H200: launching a kernel
-// takes the host 15 us, as long as some thousand loads that do not wait for each other.
+// Counts of earlier blocks that a work-item of the last block loads, at most, in one launch; beyond
+// it three launches are faster (NVIDIA H200).
 constexpr std::size_t kMostLoads = 256;
 
 BuildOptions options_of(const Tuning& tuning) {

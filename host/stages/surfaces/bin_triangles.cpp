@@ -93,7 +93,10 @@ TriangleLists BinTriangles::enqueue(const SurfaceBuffers& scene, uint triangle_c
         boxes_.reserve(kBoxWords * some),
         kept_.reserve(chunks),
         by_group ? zero_counts(out.tile_count) : cursors_.reserve(chunks * stride)};
-    const WorkSize walk = by_group ? items(some, group) : groups(chunks, 1);
+    // Kernels rely on the size: one that the device cannot run throws.
+    const auto item_count = static_cast<std::size_t>(group);
+    const WorkSize walk = by_group ? groups((some + item_count - 1) / item_count, group)
+                                   : groups(chunks, 1);
     set_up_.enqueue(walk, timer, view, scene, out.triangles, binning);
     if (!by_group) {
         offset_.enqueue(offset_.vector_items(stride, tuning_.light_group), timer, out.tile_count,
@@ -114,7 +117,7 @@ StageWork bin_triangles_work(const StageCounts& c) {
     return {.bytes_read = kTriangle * c.triangles + kBox * c.seen_triangles,
             .bytes_written =
                 (sizeof(RasterRow) + kBox) * c.seen_triangles + sizeof(uint) * c.triangle_pairs,
-            .launches = 3};
+            .launches = 3};  // CPUs have one more
 }
 
 }  // namespace kilolux

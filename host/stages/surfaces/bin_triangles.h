@@ -31,7 +31,7 @@ class BinTriangles {
     TriangleLists enqueue(const SurfaceBuffers& scene, uint triangle_count, const View& view,
                           StageTimer& timer);
 
-    /// Starts to copy pairs(), so that they wait only for the copy. Enqueues only.
+    /// Starts the copy that pairs() waits for. Enqueues only.
     void start_count(StageTimer& timer) { lists_.start_read(timer); }
 
     /// Pairs of triangle and tile of the last enqueue. Blocks.

@@ -51,7 +51,7 @@ Result read_result(const fs::path& result) {
 void require_one_sweep(const std::vector<Result>& results, bool keep_differences) {
     const auto context_of = [&](const Result& result) {
         Json out = result.document["context"];
-        // No time depends on it, and nodes of one kind differ in it, as does a node over time.
+        // It differs between nodes of one kind, and over time; scenes that fit have the same times.
         if (out.contains("device")) out["device"].erase("memory_bytes");
         if (keep_differences) {
             for (const char* kept : {"program", "device", "tuning"}) out.erase(kept);

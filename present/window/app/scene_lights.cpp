@@ -46,7 +46,8 @@ void take_tail_settings(RenderSettings& settings, const RenderSettings& from) {
 
 bool has_glowing_surfaces(const Scene& scene) {
     return std::ranges::any_of(scene.instances, [&](const Instance& instance) {
-        return glows(material_of(scene, scene.meshes[static_cast<std::size_t>(instance.mesh)]));
+        const auto looks = looks_of(scene, scene.meshes[static_cast<std::size_t>(instance.mesh)]);
+        return std::ranges::any_of(looks, [](const Material* look) { return glows(*look); });
     });
 }
 

@@ -26,8 +26,7 @@ class SceneLights {
     OwnLights& own() { return own_; }
     const OwnLights& own() const { return own_; }
 
-    /// Whether the lights and their tails are those of the state's rig, renderer, shading and
-    /// shadows.
+    /// Whether the lights and their tails are those of the state's rig, renderer and shadows.
     bool fit(const ViewState& state) const;
     /// Whether emissive surfaces light the scene as the state says.
     bool surfaces_fit(const ViewState& state) const;

@@ -42,8 +42,7 @@ void PanelGroups::groups() const {
 void PanelGroups::group(const std::string& name) const {
     GroupGain gain = gain_of(state.settings.light_mix, name);
     constexpr double kMostGain = 4.0;
-    const double most = std::max(kMostGain, double{gain.gain});
-    bool changed = ui.slider(name.c_str(), gain.gain, {0.0, most, true, "%.3f"}, "mute");
+    bool changed = ui.slider(name.c_str(), gain.gain, {0.0, kMostGain, true, "%.3f"}, "mute");
     ui.tip("Multiplies the light of this group; Ctrl+click to type a number");
     ImGui::SameLine();
     bool is_mute = gain.gain == 0.0f;
@@ -52,6 +51,7 @@ void PanelGroups::group(const std::string& name) const {
         changed = true;
     }
     changed |= ui.color((name + " colour").c_str(), gain.color);
+    gain.color = glm::max(gain.color, 0.0f);  // a typed number may be below
     if (changed) set_gain(state.settings.light_mix, gain);
 }
 
