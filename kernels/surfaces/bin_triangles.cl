@@ -12,8 +12,8 @@
 //
 // GROUP == 1: a work-item walks a chunk, VW triangles at once, and lists ascend. Else a work-group
 // takes GROUP triangles; set-up counts each tile's pairs up, filling counts them down to 0, so that
-// the next picture needs no clear, and lists have any order. The raster's result does not depend on it, since
-// the first by number of equally near triangles wins.
+// the next picture needs no clear, and lists have any order. The raster's result does not depend on
+// it, since the first by number of equally near triangles wins.
 #ifndef GROUP
 #define GROUP 1
 #endif
