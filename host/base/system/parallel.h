@@ -25,35 +25,40 @@ namespace kilolux {
 /// Does nothing in other builds.
 class HandOver {
  public:
-    HandOver() { release(); }
-    ~HandOver() { acquire(); }
+    HandOver() { release(begun); }
+    ~HandOver() { acquire(ended); }
     HandOver(const HandOver&) = delete;
     HandOver& operator=(const HandOver&) = delete;
 
-    /// `work`, which other threads may call.
-    template <typename Work>
+    /// `work`, which other threads may call; `after_others`: with what earlier calls have made.
+    template <bool after_others = false, typename Work>
     static auto given(const Work& work) {
         return [&work](auto&&... arguments) {
-            const Part part;  // before anything that the caller wrote is read
+            const Call<after_others> call;  // before anything that the caller wrote is read
             return work(std::forward<decltype(arguments)>(arguments)...);
         };
     }
 
  private:
-    struct Part {
-        Part() { acquire(); }
-        ~Part() { release(); }
-        Part(const Part&) = delete;
-        Part& operator=(const Part&) = delete;
+    template <bool after_others>
+    struct Call {
+        Call() {
+            acquire(begun);
+            if (after_others) acquire(ended);
+        }
+        ~Call() { release(ended); }
+        Call(const Call&) = delete;
+        Call& operator=(const Call&) = delete;
     };
 
+    // Of all loops. Calls of one loop are in no order, so that races between them are found.
+    static inline char begun, ended;
 #if defined(__SANITIZE_THREAD__)
-    static inline char order;  // of all hand-overs
-    static void acquire() { __tsan_acquire(&order); }
-    static void release() { __tsan_release(&order); }
+    static void acquire(char& order) { __tsan_acquire(&order); }
+    static void release(char& order) { __tsan_release(&order); }
 #else
-    static void acquire() {}
-    static void release() {}
+    static void acquire(char&) {}
+    static void release(char&) {}
 #endif
 };
 
@@ -114,8 +119,8 @@ Value parallel_reduce(std::size_t count, const Value& none, const Add& add, cons
         for (std::size_t i = range.begin(); i < range.end(); ++i) value = add(i, value);
         return value;
     };
-    const auto given_loop = HandOver::given(loop);
-    const auto given_join = HandOver::given(join);
+    const auto given_loop = HandOver::given<true>(loop);
+    const auto given_join = HandOver::given<true>(join);
     const HandOver hand_over;
     return tbb::parallel_reduce(Range(0, count, at_once), none, given_loop, given_join);
 }
