@@ -6,8 +6,8 @@
 #include "kernels/shading/hidden_lights.h"
 
 // A light in a group is added to two sums. It is evaluated once, with colour 1, and each sum
-// multiplies by the colour: the bits stay, as each term is fma(weight, colour, sum). Not with random
-// ranges, whose weight needs the colour.
+// multiplies by the colour: the bits stay, as each term is fma(weight, colour, sum). Not with
+// random ranges, whose weight needs the colour.
 #if LIGHT_GROUPS && !HAS_RANDOM_RANGES
 static inline ShadeLight weighed(ShadeLight light) {
     light.color_scale.xyz = (float3)(1.0f);
