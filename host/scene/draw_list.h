@@ -25,8 +25,8 @@ struct Draw {
     int mesh = 0;
     double depth = 0.0;     // sort key: least depth of its box [m], or its centre's (back to front)
     bool mirrored = false;  // negative determinant: front faces wind the other way
-    // Contains its pixels. Unbounded if its box reaches behind the camera, and for opaque draws when
-    // all tiles are drawn.
+    // Contains its pixels. Unbounded if its box reaches behind the camera, and for opaque draws
+    // when all tiles are drawn.
     ScreenBox screen;
     InstanceRow row{};  // composed in double; its ids are numbered along the draws
 };

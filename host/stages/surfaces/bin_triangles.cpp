@@ -95,8 +95,8 @@ TriangleLists BinTriangles::enqueue(const SurfaceBuffers& scene, uint triangle_c
         by_group ? zero_counts(out.tile_count) : cursors_.reserve(chunks * stride)};
     // Kernels rely on the size: one that the device cannot run throws.
     const auto item_count = static_cast<std::size_t>(group);
-    const WorkSize walk = by_group ? groups((some + item_count - 1) / item_count, group)
-                                   : groups(chunks, 1);
+    const WorkSize walk =
+        by_group ? groups((some + item_count - 1) / item_count, group) : groups(chunks, 1);
     set_up_.enqueue(walk, timer, view, scene, out.triangles, binning);
     if (!by_group) {
         offset_.enqueue(offset_.vector_items(stride, tuning_.light_group), timer, out.tile_count,
