@@ -127,7 +127,7 @@ struct RenderSettings {
     FrameRequest want;  // what render() brings to the host
     // Frame::aovs ends with a layer for each, named kLightLayers + name, and one for the rest.
     std::vector<LightGroup> light_groups;
-    GroupMix light_mix;  // its groups need no layers
+    LightMix light_mix;  // its groups need no layers
     GridSettings grid;
     KernelSettings kernels;
     std::vector<std::string>

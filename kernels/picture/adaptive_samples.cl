@@ -8,12 +8,14 @@
 // The number of samples of a mean then does not depend on these samples, and the mean is unbiased.
 // A tile takes samples until both means have stopped.
 //
-// A half's state: planes of its mean (3), and of the running mean and the sum of squared deviations
-// of its luminance (Welford 1962), which continue after the mean has stopped.
+// `planes`: 3 of the picture, and 3 of each group of lights. A half's state: its means of these, and
+// planes of the running mean and the sum of squared deviations of the picture's luminance (Welford
+// 1962), which continue after the means have stopped.
 #include "kernels/device/luminance.h"
 #include "kernels/device/pixels.h"
 
-#define STATE_PLANES 5
+// Planes of a half's state.
+static inline uint state_planes(uint planes) { return planes + 2; }
 
 // `mean` of n values after `value`, the n-th. An infinite mean stays infinite.
 static inline FV mean_with(FV mean, FV value, float n) {
@@ -24,10 +26,11 @@ static inline FV mean_with(FV mean, FV value, float n) {
 
 // Adds the n-th sample of half `h` where a tile is not done. One work-item takes VW neighbouring
 // pixels of a row.
-kernel void adaptive_samples_add(View view, uint h, uint n,
-                                 global const float* restrict radiance,  // [3][height][stride]
+kernel void adaptive_samples_add(View view, uint planes, uint h, uint n,
+                                 global const float* restrict radiance,  // [planes][height][stride]
                                  global const uint* restrict fixed,      // [2][tiles]
-                                 global float* restrict state) {  // in, out [2][5][height][stride]
+                                 // in, out [2][state_planes][height][stride]
+                                 global float* restrict state) {
     ItemPlace at = place_in_planes(view);
     if (!at.inside || at.x >= view.width) return;
     uint tiles = fine_tile_count(view);
@@ -35,29 +38,31 @@ kernel void adaptive_samples_add(View view, uint h, uint n,
     uint plane = view.stride * view.height;
     uint pixel = at.y * view.stride + at.x;
     bool is_first = n == 1;
-    FV light[3];
-    for (uint c = 0; c < 3; ++c) light[c] = lane_load(radiance + c * plane + pixel);
-    global float* half_state = state + h * STATE_PLANES * plane + pixel;
+    global float* half_state = state + h * state_planes(planes) * plane + pixel;
     if (fixed[h * tiles + at.tile] == 0) {
-        for (uint c = 0; c < 3; ++c) {
+        for (uint c = 0; c < planes; ++c) {
+            FV light = lane_load(radiance + c * plane + pixel);
             global float* mean = half_state + c * plane;
-            lane_store(is_first ? light[c] : mean_with(lane_load(mean), light[c], (float)n), mean);
+            lane_store(is_first ? light : mean_with(lane_load(mean), light, (float)n), mean);
         }
     }
+    FV light[3];
+    for (uint c = 0; c < 3; ++c) light[c] = lane_load(radiance + c * plane + pixel);
     FV seen = luminance(fv3(light[0], light[1], light[2]));
-    FV middle = is_first ? seen : lane_load(half_state + 3 * plane);
-    FV squares = is_first ? fv(0.0f) : lane_load(half_state + 4 * plane);
+    half_state += planes * plane;
+    FV middle = is_first ? seen : lane_load(half_state);
+    FV squares = is_first ? fv(0.0f) : lane_load(half_state + plane);
     FV change = seen - middle;
     middle = mean_with(middle, seen, (float)n);
-    lane_store(middle, half_state + 3 * plane);
-    lane_store(fma(change, seen - middle, squares), half_state + 4 * plane);
+    lane_store(middle, half_state);
+    lane_store(fma(change, seen - middle, squares), half_state + plane);
 }
 
 // After n samples of each half: where a half's samples show that the mean of both has a relative
 // standard error of at most the one asked for, the other half's mean stops. A tile's squared error
 // is the mean over its pixels of variance / (luminance^2 + floor^2); pixels that are not finite
 // count 0. One work-item takes a tile, so the order of the sum is the same for every lane width.
-kernel void adaptive_samples_decide(View view, uint n, float squared_error, float squared_floor,
+kernel void adaptive_samples_decide(View view, uint planes, uint n, float squared_error, float squared_floor,
                                     global const float* restrict state,
                                     global uint* restrict fixed) {  // in, out [2][tiles]: the
                                                                     // samples of a half's mean, 0
@@ -72,7 +77,7 @@ kernel void adaptive_samples_decide(View view, uint n, float squared_error, floa
     uint plane = view.stride * view.height;
     float pixels = (float)((x1 - x0) * (y1 - y0));
     for (uint h = 0; h < 2; ++h) {
-        global const float* middle = state + (h * STATE_PLANES + 3) * plane;
+        global const float* middle = state + (h * state_planes(planes) + planes) * plane;
         float sum = 0.0f;
         for (uint y = y0; y < y1; ++y) {
             for (uint x = x0; x < x1; ++x) {
@@ -94,17 +99,18 @@ kernel void adaptive_samples_decide(View view, uint n, float squared_error, floa
 
 // The mean of both halves, and the variance of its luminance. `n`: samples taken of each half where
 // a mean has not stopped. One work-item takes VW neighbouring pixels of a row.
-kernel void adaptive_samples_mean(View view, uint n, global const float* restrict state,
+kernel void adaptive_samples_mean(View view, uint planes, uint n,
+                                  global const float* restrict state,
                                   global const uint* restrict fixed,
-                                  global float* restrict mean,        // out [3][height][stride]
+                                  global float* restrict mean,        // out [planes][height][stride]
                                   global float* restrict variance) {  // out [height][stride]
     ItemPlace at = place_in_planes(view);
     if (!at.inside || at.x >= view.width) return;
     uint tiles = fine_tile_count(view);
     uint plane = view.stride * view.height;
     uint pixel = at.y * view.stride + at.x;
-    global const float* other_half = state + STATE_PLANES * plane;
-    for (uint c = 0; c < 3; ++c) {
+    global const float* other_half = state + state_planes(planes) * plane;
+    for (uint c = 0; c < planes; ++c) {
         FV sum = lane_load(state + c * plane + pixel) + lane_load(other_half + c * plane + pixel);
         lane_store(0.5f * sum, mean + c * plane + pixel);
     }
@@ -112,7 +118,7 @@ kernel void adaptive_samples_mean(View view, uint n, global const float* restric
     float taken = (float)(counts[0] == 0 || counts[1] == 0 ? n : max(counts[0], counts[1]));
     FV sum = fv(0.0f);
     for (uint h = 0; h < 2; ++h) {
-        FV squares = lane_load(state + (h * STATE_PLANES + 4) * plane + pixel);
+        FV squares = lane_load(state + (h * state_planes(planes) + planes + 1) * plane + pixel);
         sum += squares / ((float)(counts[h] == 0 ? n : counts[h]) * (taken - 1.0f));
     }
     lane_store(0.25f * sum, variance + pixel);

@@ -32,7 +32,7 @@ struct SharedOptions {
     EmissiveLights emissive_lights = EmissiveLights::automatic;
     std::vector<LightGroup> light_groups;  // asked for; settings has those of the scene
     bool no_light_layers = false;          // groups serve settings.light_mix only
-    bool takes_light_layers = true;        // the command's files can hold them
+    bool takes_light_layers = false;       // the command gives or measures them
     std::string environment;               // file or built-in name; empty: none
     BackgroundChoice background;           // behind the scene
     std::shared_ptr<const Environment> shown_background;  // set by light_scene()

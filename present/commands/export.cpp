@@ -32,20 +32,29 @@ SceneCamera scene_camera(const Camera& camera, const RenderSettings& settings) {
     return out;
 }
 
+// Emissive surfaces are written, the lights that they are made into are not.
+void warn_of_surfaces(const Scene& scene, const LightMix& mix) {
+    const std::vector<SceneLight> mixed = mixed_lights(scene, mix);
+    std::size_t changed = 0;
+    for (std::size_t i = 0; i < mixed.size(); ++i) {
+        changed += mixed[i].of_surface && mixed[i].intensity != scene.lights[i].intensity ? 1 : 0;
+    }
+    if (changed == 0) return;
+    warn(
+        fmt::format("the light mix changes {} lights of emissive surfaces, which are not written: "
+                    "other renderers show them as without the mix",
+                    changed));
+}
+
 // The scene at its time, with the lights that the command line adds.
 Scene scene_to_export(ExportOptions& options) {
     SharedOptions& shared = options.shared;
     Scene scene = open_scene(shared);
     const Camera camera = choose_camera(shared, scene);
-    const GroupMix& mix = shared.settings.light_mix;
-    const auto generated =
-        generate_lights(mixed_generated(shared.settings.lights, scene, mix), scene, shared.time);
-    scene.lights = mixed_lights(scene, mix);
-    for (SceneLight& light : scene.lights) {
-        light = placed_light(light, camera.world_from_view, camera.position);
-    }
-    scene.cameras.insert(scene.cameras.begin(), scene_camera(camera, shared.settings));
-    scene.lights.insert(scene.lights.end(), generated.begin(), generated.end());
+    const RenderSettings& settings = shared.settings;
+    warn_of_surfaces(scene, settings.light_mix);
+    scene.lights = all_lights(scene, settings.lights, settings.light_mix, camera, shared.time);
+    scene.cameras.insert(scene.cameras.begin(), scene_camera(camera, settings));
     return scene;
 }
 

@@ -170,7 +170,6 @@ void visit_settings(ViewOptions& options, const SettingVisitor& f) {
 
 void add_view_options(CLI::App& command, ViewOptions& options) {
     options.shared.shows_environment = true;
-    options.shared.takes_light_layers = false;
     add_options(command, options);
     leave_to_help_all(command, {"--aov"});
 }

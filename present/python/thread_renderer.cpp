@@ -60,6 +60,7 @@ RendererOptions parse_renderer_options(const std::string& scene,
     app.allow_extras();
     options.shared.takes_automatic_exposure = true;
     options.shared.takes_automatic_samples = true;
+    options.shared.takes_light_layers = true;
     options.shared.shows_environment = true;
     add_options(app, options);
     add_device_question(app);

@@ -40,15 +40,12 @@ uint tail_seed(const RenderSettings& settings, uint sample) {
 
 std::vector<SceneLight> lights_at(const Scene& scene, const RenderSettings& settings,
                                   const Camera& camera, double time) {
-    std::vector<SceneLight> own = mixed_lights(scene, settings.light_mix);
-    for (SceneLight& light : own) light = placed_light(light, camera);
+    std::vector<SceneLight> out =
+        all_lights(scene, settings.lights, settings.light_mix, camera, time);
     const Tails tails = tails_for(scene.lights, settings.tails, settings.range_budget);
-    fill_missing_ranges(own, tails == Tails::stochastic ? Tails::exact : tails,
+    fill_missing_ranges(out, tails == Tails::stochastic ? Tails::exact : tails,
                         settings.range_budget);
-    const std::vector<SceneLight> generated =
-        generate_lights(mixed_generated(settings.lights, scene, settings.light_mix), scene, time);
-    own.insert(own.end(), generated.begin(), generated.end());
-    return own;
+    return out;
 }
 
 LightSource::LightSource(const Gpu& gpu, const Tuning& tuning, const Scene& scene,
@@ -96,7 +93,7 @@ void LightSource::set_groups(const std::vector<LightGroup>& groups) {
     is_ordered_ = false;
 }
 
-void LightSource::set_mix(const GroupMix& mix) {
+void LightSource::set_mix(const LightMix& mix) {
     if (mix == mix_) return;
     mix_ = mix;
     revision_.reset();

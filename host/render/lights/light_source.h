@@ -50,7 +50,7 @@ class LightSource {
     void set_groups(const std::vector<LightGroup>& groups);
 
     /// Replaces the gains of groups of lights.
-    void set_mix(const GroupMix& mix);
+    void set_mix(const LightMix& mix);
 
     /// The lights at `time` [s] of the scene as it is now; sets their counts, and how many rows
     /// were uploaded. The camera places the headlights, and its position decides which lights are
@@ -89,7 +89,7 @@ class LightSource {
     std::array<std::uint32_t, 2> surfaces_;  // of the scene that generated lights are placed in
     Tails tails_;
     double range_budget_;
-    GroupMix mix_;
+    LightMix mix_;
     GroupNumbers mix_groups_;
     LightOptions asked_options_, options_;  // options_: with the gain of mix_
     GeneratedLights generated_;

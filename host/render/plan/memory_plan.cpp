@@ -147,7 +147,7 @@ Bytes band_pixel_bytes(const RenderSettings& settings, const ScenePlan& plan, bo
     if (ids) bytes += RasterTriangles::kPixelBytes;  // or as many that OpenGL hands over
     if (ids && settings.auto_samples.on) bytes += MaskTiles::kPixelBytes;
     if (settings.auto_samples.on) {
-        bytes += AdaptiveSamples::kPixelBytes;
+        bytes += AdaptiveSamples::kPixelBytes + (1 + groups) * AdaptiveSamples::kRadianceBytes;
     } else if (settings.samples > 1) {
         bytes += (1 + groups) * SumSamples::kPixelBytes;
     }
@@ -159,6 +159,14 @@ Bytes band_pixel_bytes(const RenderSettings& settings, const ScenePlan& plan, bo
 
 Bytes padded_width(const RenderSettings& settings) {
     return static_cast<Bytes>(settings.width + FINE_TILE - 1) / FINE_TILE * FINE_TILE;
+}
+
+// Bytes of a pixel's light in the largest buffer of it.
+Bytes radiance_element(const RenderSettings& settings) {
+    const std::size_t groups = settings.light_groups.size();
+    if (settings.auto_samples.on) return AdaptiveSamples::state_floats(groups) * sizeof(float);
+    const Bytes sums = settings.samples > 1 ? SumSamples::kSumFloats : 1;
+    return (1 + groups) * sums * Radiance::kPixelBytes;
 }
 
 Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan& plan,
@@ -186,9 +194,7 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
     need.fixed += width * tile_rows * target_pixel;
     need.band_pixel = band_pixel_bytes(settings, plan, ids, blends);
     need.largest_element = std::max<Bytes>(
-        {reads_pixels(settings) ? DecodeGBuffer::kPixelBytes : 0,
-         (1 + settings.light_groups.size()) * (settings.samples > 1 ? SumSamples::kSumFloats : 1) *
-             Radiance::kPixelBytes,
+        {reads_pixels(settings) ? DecodeGBuffer::kPixelBytes : 0, radiance_element(settings),
          static_cast<Bytes>(plan.of_layers().gbuffer_bytes_per_pixel)});
     return need;
 }

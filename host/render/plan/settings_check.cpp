@@ -82,11 +82,6 @@ void check_light_groups(const RenderSettings& settings) {
             "light groups: the forward renderers have no layers; take --renderer deferred, or "
             "--no-light-layers");
     }
-    if (settings.auto_samples.on) {
-        throw UsageError(
-            "light groups: no layers with --samples auto; give a number of samples, or take "
-            "--no-light-layers");
-    }
 }
 
 void check_illuminance(const RenderSettings& settings) {

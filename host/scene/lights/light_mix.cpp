@@ -10,6 +10,8 @@
 #include "host/base/formats/color_text.h"
 #include "host/base/suggest.h"
 #include "host/base/text.h"
+#include "host/scene/lights/light_generator.h"
+#include "host/scene/lights/rig.h"
 
 namespace kilolux {
 namespace {
@@ -85,7 +87,7 @@ std::string text_of(const std::vector<GroupGain>& gains) {
     return out;
 }
 
-void check_light_mix(const GroupMix& mix) {
+void check_light_mix(const LightMix& mix) {
     const std::vector<std::string> names = names_of(mix.groups);
     for (const GroupGain& gain : mix.gains) {
         if (std::ranges::count(names, gain.name) > 0) continue;
@@ -95,7 +97,7 @@ void check_light_mix(const GroupMix& mix) {
     }
 }
 
-std::vector<glm::vec3> factors_of(const GroupMix& mix) {
+std::vector<glm::vec3> factors_of(const LightMix& mix) {
     std::vector<glm::vec3> out(1 + mix.groups.size(), glm::vec3(1.0f));
     for (const GroupGain& gain : mix.gains) {
         const auto found = std::ranges::find(mix.groups, gain.name, &LightGroup::name);
@@ -106,12 +108,12 @@ std::vector<glm::vec3> factors_of(const GroupMix& mix) {
     return out;
 }
 
-std::vector<SceneLight> mixed_lights(const Scene& scene, const GroupMix& mix) {
+std::vector<SceneLight> mixed_lights(const Scene& scene, const LightMix& mix) {
     GroupNumbers groups;
     return mixed_lights(scene, mix, groups);
 }
 
-std::vector<SceneLight> mixed_lights(const Scene& scene, const GroupMix& mix,
+std::vector<SceneLight> mixed_lights(const Scene& scene, const LightMix& mix,
                                      GroupNumbers& groups) {
     std::vector<SceneLight> out = scene.lights;
     if (mix.gains.empty()) return out;
@@ -121,7 +123,19 @@ std::vector<SceneLight> mixed_lights(const Scene& scene, const GroupMix& mix,
     return out;
 }
 
-LightOptions mixed_generated(LightOptions generated, const Scene& scene, const GroupMix& mix) {
+std::vector<SceneLight> all_lights(const Scene& scene, const LightOptions& generated,
+                                   const LightMix& mix, const Camera& camera, double time) {
+    std::vector<SceneLight> out = mixed_lights(scene, mix);
+    for (SceneLight& light : out) {
+        light = placed_light(light, camera.world_from_view, camera.position);
+    }
+    const std::vector<SceneLight> drifting =
+        generate_lights(mixed_generated(generated, scene, mix), scene, time);
+    out.insert(out.end(), drifting.begin(), drifting.end());
+    return out;
+}
+
+LightOptions mixed_generated(LightOptions generated, const Scene& scene, const LightMix& mix) {
     if (mix.gains.empty()) return generated;
     generated.gain = factors_of(mix)[group_of(generated_light(generated), scene, mix.groups)];
     return generated;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host/scene/camera.h"
 #include "host/scene/lights/light_groups.h"
 
 namespace kilolux {
@@ -20,10 +21,10 @@ struct GroupGain {
 
 /// Gains of groups of lights: the picture is that of a scene whose lights have the intensities of
 /// mixed_lights() and mixed_generated().
-struct GroupMix {
+struct LightMix {
     std::vector<GroupGain> gains;    // groups without one keep their light
     std::vector<LightGroup> groups;  // of the scene, all of them
-    bool operator==(const GroupMix&) const = default;
+    bool operator==(const LightMix&) const = default;
 };
 
 /// Gains from `NAME=GAIN[:COLOR],...`, COLOR as "#RRGGBB" (sRGB) or "R,G,B" (linear); "none": no
@@ -32,17 +33,22 @@ std::vector<GroupGain> parse_light_mix(const std::string& option, const std::str
 std::string text_of(const std::vector<GroupGain>& gains);
 
 /// Throws UsageError for a gain whose name is none of the mix's groups.
-void check_light_mix(const GroupMix& mix);
+void check_light_mix(const LightMix& mix);
 
 /// The factors of each group's light, by group_of(): [1 + groups].
-std::vector<glm::vec3> factors_of(const GroupMix& mix);
+std::vector<glm::vec3> factors_of(const LightMix& mix);
 
 /// The scene's lights with the intensities that the mix gives them.
-std::vector<SceneLight> mixed_lights(const Scene& scene, const GroupMix& mix);
+std::vector<SceneLight> mixed_lights(const Scene& scene, const LightMix& mix);
 /// The same; `groups` keeps each light's group from call to call.
-std::vector<SceneLight> mixed_lights(const Scene& scene, const GroupMix& mix, GroupNumbers& groups);
+std::vector<SceneLight> mixed_lights(const Scene& scene, const LightMix& mix, GroupNumbers& groups);
+
+/// All lights of a scene at `time` [s]: its own, those that follow the camera placed by `camera`,
+/// then the generated ones; with the intensities that the mix gives them.
+std::vector<SceneLight> all_lights(const Scene& scene, const LightOptions& generated,
+                                   const LightMix& mix, const Camera& camera, double time);
 
 /// What makes the generated lights with the intensities that the mix gives them.
-LightOptions mixed_generated(LightOptions generated, const Scene& scene, const GroupMix& mix);
+LightOptions mixed_generated(LightOptions generated, const Scene& scene, const LightMix& mix);
 
 }  // namespace kilolux

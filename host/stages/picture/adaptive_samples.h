@@ -12,21 +12,26 @@ namespace kilolux {
 
 inline constexpr StageInfo kAdaptiveSamplesStage = {"adaptive_samples", StageGroup::picture};
 
-/// Means of as many pictures as each fine tile needs. The pictures are in two halves, and each
-/// half's spread decides where the other's mean stops, so that the means are unbiased.
+/// Means of as many pictures as each fine tile needs, and of their groups' light. The pictures are
+/// in two halves, and each half's spread decides where the other's mean stops, so that the means
+/// are unbiased.
 class AdaptiveSamples {
  public:
-    static constexpr std::size_t kStatePlanes = 5;  // of a half: STATE_PLANES of the kernel
-    /// Bytes of a pixel: both halves, the mean and its variance; and taken().
-    static constexpr std::size_t kPixelBytes =
-        (2 * kStatePlanes + 3 + 1) * sizeof(float) + sizeof(uint);
+    /// Bytes of a pixel: both halves' luminance, its variance, and taken(). And those of its
+    /// radiance, and of that of each group: both halves and the mean.
+    static constexpr std::size_t kPixelBytes = (2 * 2 + 1) * sizeof(float) + sizeof(uint);
+    static constexpr std::size_t kRadianceBytes = 3 * (2 + 1) * sizeof(float);
+    /// Floats of a pixel in one buffer, of `groups` of lights.
+    static constexpr std::size_t state_floats(std::size_t groups) {
+        return 2 * (3 * (1 + groups) + 2);
+    }
 
     AdaptiveSamples(const Gpu& gpu, const Tuning& tuning);
 
     /// Forgets all pictures.
     void clear() { taken_[0] = taken_[1] = 0; }
 
-    /// Adds a picture to half 0 or 1; all must have the same size. Enqueues only.
+    /// Adds a picture to half 0 or 1; all must have the same size and groups. Enqueues only.
     void add(uint half, const Radiance& radiance, StageTimer& timer);
 
     /// Call after as many pictures of each half, at least two. Stops the means whose standard error
@@ -52,14 +57,17 @@ class AdaptiveSamples {
     std::vector<uint> taken() const;
 
  private:
+    uint planes() const { return 3 * (1 + groups_); }
+
     Gpu gpu_;
     Tuning tuning_;
     KernelProgram program_;
     Kernel add_, decide_, mean_kernel_;
     View view_{};
+    uint groups_ = 0;
     uint taken_[2] = {0, 0};
     GrowingArray<uint> fixed_;   // [2][tiles]
-    GrowingArray<float> state_;  // [2][5][height][stride]
+    GrowingArray<float> state_;  // [2][planes() + 2][height][stride]
     GrowingArray<float> mean_, variance_;
 };
 

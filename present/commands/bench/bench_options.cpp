@@ -149,6 +149,7 @@ void visit_settings(BenchOptions& options, const SettingVisitor& f) {
 
 void add_bench_options(CLI::App& command, BenchOptions& options) {
     options.shared.compares_renderers = true;
+    options.shared.takes_light_layers = true;  // whose cost it measures
     add_options(command, options);
 }
 

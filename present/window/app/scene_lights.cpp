@@ -33,8 +33,8 @@ void take_lit(RenderSettings& settings, const SharedOptions& lit) {
     settings.reflections = lit.maps;
 }
 
-// Takes the settings that decide automatic tails and emissive lights.
-void take_tail_settings(RenderSettings& settings, const RenderSettings& from) {
+// Takes the settings that decide automatic tails, emissive lights and groups of lights.
+void take_deciding_settings(RenderSettings& settings, const RenderSettings& from) {
     settings.tails = from.tails;
     settings.renderer = from.renderer;
     settings.shadows = from.shadows;
@@ -91,7 +91,7 @@ void SceneLights::replace(RenderWorker& worker, const ViewState& state,
                           const RenderSettings& settings) {
     lit_.settings.range_budget = asked_.settings.range_budget;
     for (SharedOptions* options : {&asked_, &lit_}) {  // a failure is not tried again
-        take_tail_settings(options->settings, state.settings);
+        take_deciding_settings(options->settings, state.settings);
     }
     asked_.emissive_lights = state.emissive_lights;
     ask(worker, with_rig(asked_, state.rig), settings, true);
@@ -100,8 +100,8 @@ void SceneLights::replace(RenderWorker& worker, const ViewState& state,
 void SceneLights::change(RenderWorker& worker, const ViewState& state,
                          const RenderSettings& settings) {
     SharedOptions asked = lit_;
-    take_tail_settings(asked_.settings, state.settings);
-    take_tail_settings(asked.settings, state.settings);
+    take_deciding_settings(asked_.settings, state.settings);
+    take_deciding_settings(asked.settings, state.settings);
     asked.emissive_lights = asked_.emissive_lights = state.emissive_lights;
     asked.settings.lights.count = state.settings.lights.count;
     asked.settings.ambient = state.settings.ambient;
@@ -123,6 +123,7 @@ void SceneLights::ask(RenderWorker& worker, const SharedOptions& asked,
                 out.line = light_scene(out.options, scene);
             } else {
                 choose_emissive_lights(out.options, scene);
+                choose_light_groups(out.options, scene.scene());
                 choose_tails(out.options, scene.scene());
             }
             RenderSettings next = settings;
@@ -145,6 +146,7 @@ void SceneLights::take(ViewState& state, const OnFailure& failed) {
     if (!are_changing()) return;
     const auto take_relit = [&](Relit relit) {
         own_.end_sending(true);
+        state.settings.light_mix.groups = relit.options.settings.light_mix.groups;
         if (relit.with_rig) {
             note(relit.line);
             take_lit(state.settings, relit.options);

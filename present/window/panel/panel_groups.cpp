@@ -9,13 +9,13 @@ namespace kilolux {
 namespace {
 
 // The gain of a group in a mix; a group without one keeps its light.
-GroupGain gain_of(const GroupMix& mix, const std::string& name) {
+GroupGain gain_of(const LightMix& mix, const std::string& name) {
     const auto found = std::ranges::find(mix.gains, name, &GroupGain::name);
     return found != mix.gains.end() ? *found : GroupGain{name};
 }
 
 // Only groups whose light changes are in the mix, and so in copied commands.
-void set_gain(GroupMix& mix, const GroupGain& gain) {
+void set_gain(LightMix& mix, const GroupGain& gain) {
     const auto found = std::ranges::find(mix.gains, gain.name, &GroupGain::name);
     if (gain == GroupGain{gain.name}) {
         if (found != mix.gains.end()) mix.gains.erase(found);
@@ -29,7 +29,7 @@ void set_gain(GroupMix& mix, const GroupGain& gain) {
 }  // namespace
 
 void PanelGroups::groups() const {
-    GroupMix& mix = state.settings.light_mix;
+    LightMix& mix = state.settings.light_mix;
     if (mix.groups.empty() || !ui.section("Light groups", true)) return;
     ui.begin_group("mix");
     for (const LightGroup& light_group : mix.groups) group(light_group.name);

@@ -124,6 +124,29 @@ TEST(LightGroups, ManyAreTheSameAsOneAlone) {
     }
 }
 
+TEST(LightGroups, WithAutomaticSamplesHaveThePicturesSamples) {
+    const Scene scene = named_grid();
+    RenderSettings settings = grouped(scene, small_settings(70, 60, 60));
+    settings.shadows = Shadows::exact;
+    settings.auto_samples = {true, 0.05f, 64};
+    const Frame early = expect_whole(scene, settings);
+    EXPECT_GT(early.stats.samples.most, early.stats.samples.least);
+    settings.shadows = Shadows::sampled;
+    settings.auto_samples = {true, 1e-9f, 16};  // all that vary take the most
+    const Frame frame = render_once(scene, settings);
+    settings.auto_samples.on = false;
+    settings.samples = 16;
+    const Frame fixed = render_once(scene, settings);
+    for (const Layer& layer : fixed.aovs) {
+        const float most = *std::ranges::max_element(layer.values);
+        const std::string group = layer.name.substr(kLightLayers.size());
+        const std::vector<float>& seen = layer_of(frame, group).values;
+        for (std::size_t i = 0; i < seen.size(); ++i) {
+            ASSERT_NEAR(seen[i], layer.values[i], 1e-5 * most) << group << ' ' << i;
+        }
+    }
+}
+
 TEST(LightGroups, OfGlassAreWhatIsSeenThroughIt) {
     Scene scene = glass_scene();
     scene.light_nodes = {{"near", ""}};
@@ -193,9 +216,6 @@ TEST(LightGroups, SayWhatIsWrong) {
         EXPECT_TRUE(contains(message, c.reason)) << message;
     }
     RenderSettings settings = grouped(scene, small_settings());
-    settings.auto_samples.on = true;
-    expect_refused(scene, settings, "light groups: no layers with --samples auto");
-    settings.auto_samples.on = false;
     settings.renderer = RendererKind::forward;
     expect_refused(scene, settings, "light groups: the forward renderers have no layers");
 }
