@@ -8,9 +8,9 @@
 // The number of samples of a mean then does not depend on these samples, and the mean is unbiased.
 // A tile takes samples until both means have stopped.
 //
-// `planes`: 3 of the picture, and 3 of each group of lights. A half's state: its means of these, and
-// planes of the running mean and the sum of squared deviations of the picture's luminance (Welford
-// 1962), which continue after the means have stopped.
+// `planes`: 3 of the picture, and 3 of each group of lights. A half's state: its means of these,
+// and planes of the running mean and the sum of squared deviations of the picture's luminance
+// (Welford 1962), which continue after the means have stopped.
 #include "kernels/device/luminance.h"
 #include "kernels/device/pixels.h"
 
@@ -62,8 +62,8 @@ kernel void adaptive_samples_add(View view, uint planes, uint h, uint n,
 // standard error of at most the one asked for, the other half's mean stops. A tile's squared error
 // is the mean over its pixels of variance / (luminance^2 + floor^2); pixels that are not finite
 // count 0. One work-item takes a tile, so the order of the sum is the same for every lane width.
-kernel void adaptive_samples_decide(View view, uint planes, uint n, float squared_error, float squared_floor,
-                                    global const float* restrict state,
+kernel void adaptive_samples_decide(View view, uint planes, uint n, float squared_error,
+                                    float squared_floor, global const float* restrict state,
                                     global uint* restrict fixed) {  // in, out [2][tiles]: the
                                                                     // samples of a half's mean, 0
                                                                     // while it takes more
@@ -102,7 +102,7 @@ kernel void adaptive_samples_decide(View view, uint planes, uint n, float square
 kernel void adaptive_samples_mean(View view, uint planes, uint n,
                                   global const float* restrict state,
                                   global const uint* restrict fixed,
-                                  global float* restrict mean,        // out [planes][height][stride]
+                                  global float* restrict mean,  // out [planes][height][stride]
                                   global float* restrict variance) {  // out [height][stride]
     ItemPlace at = place_in_planes(view);
     if (!at.inside || at.x >= view.width) return;

@@ -31,14 +31,14 @@ void AdaptiveSamples::add(uint half, const Radiance& radiance, StageTimer& timer
         upload<uint>(gpu_, fixed_.reserve(size), std::vector<uint>(size));
         state_.reserve(state_floats(groups_) * size_of(view_));
     }
-    add_.enqueue(add_.pixel_items(view_, tuning_.shade_rows), timer, view_, planes(), half,
-                 ++taken_[half], radiance.planes, fixed_.get(), state_.get());
+    add_.enqueue(add_.pixel_items(view_, tuning_.shade_rows), timer, shape(), half, ++taken_[half],
+                 radiance.planes, fixed_.get(), state_.get());
 }
 
 void AdaptiveSamples::decide(float error, float floor, StageTimer& timer) {
     assert(taken_[0] == taken_[1] && taken_[0] > 1);
-    decide_.enqueue(items(tile_count(), 1), timer, view_, planes(), taken_[0], error * error,
-                    floor * floor, state_.get(), fixed_.get());
+    decide_.enqueue(items(tile_count(), 1), timer, shape(), taken_[0], error * error, floor * floor,
+                    state_.get(), fixed_.get());
 }
 
 std::vector<bool> AdaptiveSamples::open_tiles() const {
@@ -51,9 +51,9 @@ std::vector<bool> AdaptiveSamples::open_tiles() const {
 }
 
 Radiance AdaptiveSamples::mean(StageTimer& timer) {
-    Radiance out{mean_.reserve(planes() * size_of(view_)), view_, groups_};
-    mean_kernel_.enqueue(mean_kernel_.pixel_items(view_, tuning_.shade_rows), timer, view_,
-                         planes(), taken_[0], state_.get(), fixed_.get(), out.planes,
+    Radiance out{mean_.reserve(shape().planes * size_of(view_)), view_, groups_};
+    mean_kernel_.enqueue(mean_kernel_.pixel_items(view_, tuning_.shade_rows), timer, shape(),
+                         taken_[0], state_.get(), fixed_.get(), out.planes,
                          variance_.reserve(size_of(view_)));
     return out;
 }

@@ -57,7 +57,16 @@ class AdaptiveSamples {
     std::vector<uint> taken() const;
 
  private:
-    uint planes() const { return 3 * (1 + groups_); }
+    // The sizes of a half's state.
+    struct Shape {
+        View view{};
+        uint planes = 3;  // of a Radiance
+        void each(auto&& set) const {
+            set("view", view);
+            set("planes", planes);
+        }
+    };
+    Shape shape() const { return {view_, 3 * (1 + groups_)}; }
 
     Gpu gpu_;
     Tuning tuning_;
@@ -67,7 +76,7 @@ class AdaptiveSamples {
     uint groups_ = 0;
     uint taken_[2] = {0, 0};
     GrowingArray<uint> fixed_;   // [2][tiles]
-    GrowingArray<float> state_;  // [2][planes() + 2][height][stride]
+    GrowingArray<float> state_;  // [2][planes + 2][height][stride]
     GrowingArray<float> mean_, variance_;
 };
 

@@ -127,6 +127,25 @@ TEST_F(EmissiveLightsOption, AreNotExported) {
     EXPECT_EQ(load_scene(out).lights.size(), 1u);
 }
 
+// Nor are their gains, unlike those of other lights.
+TEST_F(EmissiveLightsOption, AreNotExportedWithTheirGains) {
+    const auto run = [&](const char* mix) {
+        return run_kilolux({"export", (folder_ / "lamp.glb").string(), "-o",
+                            (folder_ / "out.glb").string(), "--emissive-lights", "on",
+                            "--light-groups", "glow=from:surfaces,lamp=from:file", "--light-mix",
+                            mix});
+    };
+    const std::string warning = "the light mix changes ";
+    const ChildResult dimmed = run("lamp=0.5,glow=0.5");
+    EXPECT_EQ(dimmed.code, 0) << dimmed.err;
+    EXPECT_TRUE(contains(dimmed.err, warning)) << dimmed.err;
+    EXPECT_FALSE(contains(run("lamp=0.25").err, warning));
+    const Scene out = load_scene(folder_ / "out.glb");
+    const Scene lamp = load_scene(folder_ / "lamp.glb");
+    ASSERT_EQ(out.lights.size(), 1u);
+    EXPECT_NEAR(out.lights[0].intensity.x, 0.25f * lamp.lights[0].intensity.x, 1e-5);
+}
+
 TEST_F(EmissiveLightsOption, AreCountedByInfo) {
     const ChildResult run = run_kilolux({"info", (folder_ / "glow.glb").string(), "--rig", "none"});
     EXPECT_EQ(run.code, 0) << run.err;

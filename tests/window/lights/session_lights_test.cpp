@@ -237,6 +237,16 @@ TEST_F(LightsOfTheWindow, HaveGainsInGroups) {
     EXPECT_EQ(difference("start", "reset"), 0.0);
 }
 
+// A size that leaves a group without lights is not taken: its fader would do nothing.
+TEST_F(LightsOfTheWindow, KeepTheirKindForTheirGroup) {
+    write_scene(lit_room(false), room_);
+    Script script(folder_);
+    script.line("slide size 0.2").line("settle");
+    const ChildResult result = view(script, {"--light-groups", "small=kind:point"});
+    EXPECT_EQ(result.code, 1);  // a script ends where a change fails
+    EXPECT_NE(result.err.find("no light is in 'small'"), std::string::npos) << result.err;
+}
+
 // Generated lights, and the file's points, are those of --light-size.
 TEST_F(LightsOfTheWindow, GetASize) {
     write_scene(lit_room(false), room_);
