@@ -8,7 +8,7 @@
 
 // A work-group takes every SPLIT-th light of a tile.
 #ifndef SPLIT
-#define SPLIT 4
+#define SPLIT 8
 #endif
 #define NODES_AT_ONCE (GROUP / SHADOW_WIDTH)
 // Most triangles that wait for their test.

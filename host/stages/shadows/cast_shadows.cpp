@@ -6,8 +6,9 @@
 namespace kilolux {
 namespace {
 
-// Work-groups that share a tile's lights: the longest lists decide when the last group ends.
-constexpr int kSplit = 4;
+// Work-groups that share a tile's lights: the tiles with the most triangles decide when the last
+// group ends. Sampled shadows have fewer rays, and a group has to find them.
+int split_of(const KernelFeatures& features) { return features.sampled_shadows ? 4 : 8; }
 constexpr std::size_t kFirstWords = std::size_t{1} << 18;  // that there is room for from the start
 
 // In the work-group form PoCL 3.1 loses values across barriers and reads through wild pointers;
@@ -26,7 +27,7 @@ KernelProgram cast_program(const Gpu& gpu, const Tuning& tuning, const KernelFea
     options.define("PICKED_ONLY", features.sampled_shadows).define("COUNT_SHADOWS", counts);
     if (tuning.shadow_group == 0) return build_program(gpu, "cast_shadows_by_bundle", options);
     if (tuning.shadow_group == 1) return build_program(gpu, "cast_shadows_by_item", options);
-    options.define("GROUP", tuning.shadow_group).define("SPLIT", kSplit);
+    options.define("GROUP", tuning.shadow_group).define("SPLIT", split_of(features));
     return build_program(gpu.with_lanes(1), "cast_shadows_by_group", options);
 }
 
@@ -36,6 +37,7 @@ CastShadows::CastShadows(const Gpu& gpu, const Tuning& tuning, const KernelFeatu
                          const SurfaceFeatures& surfaces, bool counts)
     : gpu_(gpu),
       tuning_(usable_for_shadows(tuning, gpu.info)),
+      split_(tuning_.shadow_group > 1 ? split_of(features) : 1),
       has_counts_(counts),
       program_(cast_program(gpu, tuning_, features, surfaces, counts)),
       reserve_(gpu, program_, kCastShadowsStage, "cast_shadows_reserve"),
@@ -61,7 +63,7 @@ ShadowWords CastShadows::reserve(const PreparedLights& lights, const ActiveClust
 WorkSize CastShadows::work_size(uint tiles, const View& view) const {
     const int group = tuning_.shadow_group;
     if (group == 0) return cast_.pixel_items(view, tuning_.shade_rows);
-    return groups(std::size_t{tiles} * (group == 1 ? 1 : kSplit), group);
+    return groups(std::size_t{tiles} * static_cast<std::size_t>(split_), group);
 }
 
 void CastShadows::enqueue(const ShadowInput& input, const LitPixels& lit, const ShadowWords& words,

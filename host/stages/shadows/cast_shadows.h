@@ -44,6 +44,7 @@ class CastShadows {
 
     Gpu gpu_;
     Tuning tuning_;
+    int split_;  // work-groups for each tile
     bool has_counts_;
     KernelProgram program_;
     Kernel reserve_, cast_;
