@@ -5,9 +5,9 @@
 #define KILOLUX_DEVICE_ADD_LIGHT_H
 #include "kernels/shading/hidden_lights.h"
 
-// To join two sums, a light is evaluated once with colour 1, and its colour is multiplied in when
-// it is added. The bits stay, as each term is fma(weight, colour, sum). Not with random ranges,
-// whose weight needs the colour.
+// A light in a group is added to two sums. It is evaluated once, with colour 1, and each sum
+// multiplies by the colour: the bits stay, as each term is fma(weight, colour, sum). Not with
+// random ranges, whose weight needs the colour.
 #if LIGHT_GROUPS && !HAS_RANDOM_RANGES
 static inline ShadeLight weighed(ShadeLight light) {
     light.color_scale.xyz = (float3)(1.0f);

@@ -76,7 +76,9 @@ double largest_loss(const BoundedLight& light, const Distances& d) {
 class BoundedPoints {
  public:
     void add(const SceneLight& light) {
-        for (int c = 0; c < 3; ++c) position_[c].push_back(light.position[c]);
+        position_[0].push_back(light.position.x);
+        position_[1].push_back(light.position.y);
+        position_[2].push_back(light.position.z);
         candela_.push_back(luminance(glm::dvec3(light.intensity)));
         range2_.push_back(double{light.range} * light.range);
     }
@@ -98,8 +100,9 @@ class BoundedPoints {
  private:
     double loss(const Box& box, std::size_t i) const {
         double least2 = 0.0, greatest2 = 0.0;
-        for (int c = 0; c < 3; ++c) {
-            const double below = box.min[c] - position_[c][i], above = position_[c][i] - box.max[c];
+        for (glm::length_t c = 0; c < 3; ++c) {
+            const double at = position_[static_cast<std::size_t>(c)][i];
+            const double below = box.min[c] - at, above = at - box.max[c];
             const double outside = std::max(std::max(below, above), 0.0);
             const double across = std::max(std::abs(below), std::abs(above));
             least2 += outside * outside;

@@ -6,34 +6,12 @@
 #include <functional>
 #include <utility>
 
-#include "host/base/error.h"
-#include "host/picture/aovs.h"
-#include "host/scene/lights/light_groups.h"
+#include "tests/render/lights/named_grid.h"
 #include "tests/render/shadows/soft_scenes.h"
 #include "tests/support/glass_pictures.h"
 
 namespace kilolux {
 namespace {
-
-// grid_with_every_light() and the swarm, whose spots have names, in a light that is no light's.
-Scene named_grid() {
-    Scene scene = grid_with_every_light();
-    scene.light_nodes = {{"left", ""}, {"right", "lamps"}};
-    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        SceneLight& light = scene.lights[i];
-        if (kind_of(light).has_cone) light.node = i % 2 == 0 ? 0 : 1;
-    }
-    return scene;
-}
-
-const char* const kGroups =
-    "left=left,right=group:lamp*,sun=kind:directional,swarm=from:generated+kind:sphere";
-
-RenderSettings grouped(const Scene& scene, RenderSettings settings, const char* groups = kGroups) {
-    settings.light_groups =
-        light_groups_of(scene, settings.lights, parse_light_groups("--light-groups", groups));
-    return settings;
-}
 
 // The scene with only the lights for which `stays` holds; the others stay dark, in their places.
 Scene only(Scene scene, const std::function<bool(const SceneLight&)>& stays) {
@@ -41,13 +19,6 @@ Scene only(Scene scene, const std::function<bool(const SceneLight&)>& stays) {
         if (!stays(light)) light.intensity *= 1e-30f;
     }
     return scene;
-}
-
-const Layer& layer_of(const Frame& frame, const std::string& group) {
-    const auto found =
-        std::ranges::find(frame.aovs, std::string(kLightLayers) + group, &Layer::name);
-    if (found == frame.aovs.end()) throw Error("no layer " + group);
-    return *found;
 }
 
 // That the layers of all groups and of the rest add up to the picture, whose bits are those of a
@@ -223,10 +194,10 @@ TEST(LightGroups, SayWhatIsWrong) {
     }
     RenderSettings settings = grouped(scene, small_settings());
     settings.auto_samples.on = true;
-    expect_refused(scene, settings, "light groups: not with --samples auto");
+    expect_refused(scene, settings, "light groups: no layers with --samples auto");
     settings.auto_samples.on = false;
     settings.renderer = RendererKind::forward;
-    expect_refused(scene, settings, "light groups: the forward renderers have none");
+    expect_refused(scene, settings, "light groups: the forward renderers have no layers");
 }
 
 }  // namespace
