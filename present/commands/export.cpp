@@ -16,7 +16,6 @@
 #include "present/cli/option_builder.h"
 #include "present/cli/progress.h"
 #include "present/cli/scene_choice.h"
-#include "present/commands/bench/bench.h"
 #include "present/commands/benchmark/write_benchmark.h"
 
 namespace kilolux {
@@ -92,7 +91,7 @@ void refuse_scene_options(const CLI::App& command) {
 }
 
 void export_benchmark(const ExportOptions& options) {
-    make_output_folder(options.benchmark);
+    make_benchmark_folder(options.benchmark);
     load_image_library();
     const auto scenes = benchmark_scenes();
     Progress progress("references", reference_count(scenes), options.shared.shown_progress());

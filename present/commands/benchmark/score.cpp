@@ -2,6 +2,7 @@
 #include "present/commands/benchmark/score.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,12 +12,15 @@
 #include "host/base/log.h"
 #include "host/base/system/interrupt.h"
 #include "host/base/text.h"
+#include "host/images/images.h"
+#include "host/images/rec709.h"
 #include "host/measure/metrics/error_metrics.h"
 #include "host/measure/metrics/flip_hdr.h"
 #include "host/measure/metrics/lost_light.h"
 #include "host/measure/report/references.h"
 #include "host/scene/generated/scenes.h"
 #include "present/cli/option_builder.h"
+#include "present/cli/progress.h"
 #include "present/cli/scene_choice.h"
 #include "present/cli/stats_json.h"
 #include "present/image/read.h"
@@ -39,12 +43,28 @@ void require_finite(const fs::path& file, const RgbImage& image) {
                             file.string(), count, first % width, first / width));
 }
 
+// Throws Error for a part of a picture, which is of another view, and for other primaries.
+void require_whole_rec709(const fs::path& file, const ImageLayout& layout) {
+    if (layout.full_width > 0) {
+        throw Error(fmt::format("{}: is {}x{} pixels of a picture of {}x{}; score needs all of it",
+                                file.string(), layout.width, layout.height, layout.full_width,
+                                layout.full_height));
+    }
+    constexpr float kRounding = 1e-3f;  // of the numbers that programs write
+    const auto is_near = [](float a, float b) { return std::abs(a - b) <= kRounding; };
+    const std::vector<float>& primaries = layout.chromaticities;
+    if (primaries.empty() || std::ranges::equal(primaries, kRec709, is_near)) return;
+    throw Error(fmt::format("{}: its primaries are {:.4g}; score needs those of Rec. 709, {:.4g}",
+                            file.string(), fmt::join(primaries, " "), fmt::join(kRec709, " ")));
+}
+
 // A linear picture with channels R, G and B. Throws Error for any other.
 RgbImage linear_picture(const fs::path& file) {
     if (image_meaning(file) != ImageMeaning::linear) {
         throw Error(file.string() +
                     ": holds display values; score needs linear ones, .exr or .hdr");
     }
+    require_whole_rec709(file, open_image(file)->layout());
     const FloatImage image = read_image(file);
     const std::set<std::string> channels(image.channels.begin(), image.channels.end());
     for (const char* name : {"R", "G", "B"}) {
@@ -63,6 +83,8 @@ void settle_options(ScoreOptions& options, const CLI::App& command) {
     refuse_if(shared.scene.empty() == options.reference.empty(),
               "score: needs one of --scene SCENE and --reference FILE");
     refuse_if(is_given(command, "--resolution"), "--resolution: the size is that of the picture");
+    refuse_if(is_given(command, "--samples"), "--samples: the reference has the pixels' centres");
+    refuse_if(is_given(command, "--reflections"), "--reflections: the reference has none");
     refuse_if(options.inverse_square && shared.scene.empty(),
               "--inverse-square: goes with --scene; a reference file has its own falloff");
     if (shared.settings.tails == Tails::automatic) shared.settings.tails = Tails::exact;
@@ -99,13 +121,15 @@ ScoreReference cast_reference(ScoreOptions& options, const RgbImage& picture) {
     const Scene scene = open_scene(shared);
     const Camera camera = choose_camera(shared, scene);
     require_shape(options, scene, picture);
+    const std::size_t lights = scene.lights.size() + s.lights.count;
+    if (lights == 0) throw Error(shared.scene + ": has no lights; --lights N adds some");
+    const Progress progress("reference", 1, shared.shown_progress());
     ReportReferences references({scene, camera, shared.time}, s);
     references.on_step(check_interrupt);
     const auto& made = options.inverse_square ? references.unbounded() : references.surfaces(s);
     return {made.picture.radiance, made.picture.scale,
             fmt::format("{}, {} lights, float64 at the pixels' centres, {}, {}", shared.scene,
-                        scene.lights.size() + s.lights.count,
-                        options.inverse_square ? "inverse square" : "the lights' ranges",
+                        lights, options.inverse_square ? "inverse square" : "the lights' ranges",
                         s.shadows == Shadows::off ? "no shadows" : "shadows")};
 }
 
@@ -118,6 +142,13 @@ ScoreReference read_reference(const ScoreOptions& options, const RgbImage& pictu
                                 file.string(), radiance.width, radiance.height));
     }
     return {std::move(radiance), std::nullopt, file.string()};
+}
+
+// Of a black reference no share is lost.
+void require_light(const ScoreReference& reference) {
+    const std::vector<double>& values = reference.radiance.rgb;
+    if (std::ranges::any_of(values, [](double value) { return value > 0.0; })) return;
+    throw Error("the reference is black: " + reference.line);
 }
 
 struct Score {
@@ -171,10 +202,12 @@ std::string score_text(const ScoreOptions& options, const RgbImage& picture,
 
 void run_score(ScoreOptions& options, const CLI::App& command) {
     settle_options(options, command);
+    check_progress(options.shared.progress, options.json);
     begin_command(options.shared);
     const RgbImage picture = linear_picture(options.picture);
     const ScoreReference reference = options.reference.empty() ? cast_reference(options, picture)
                                                                : read_reference(options, picture);
+    require_light(reference);
     const Score score = score_of(picture, reference);
     const auto document =
         options.json ? score_json(options, picture, reference, score) : nlohmann::ordered_json();

@@ -9,12 +9,14 @@
 #include "host/base/source.h"
 #include "host/base/system/atomic_write.h"
 #include "host/base/system/interrupt.h"
+#include "host/base/system/read_text.h"
 #include "host/measure/report/references.h"
 #include "host/scene/camera.h"
 #include "host/scene/export/export_scene.h"
 #include "host/scene/gltf/load_scene.h"
 #include "host/scene/lights/light_kinds.h"
 #include "present/cli/stats_json.h"
+#include "present/commands/bench/bench.h"
 #include "present/image/image_file.h"
 
 namespace kilolux {
@@ -24,12 +26,15 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kTexts = "present/commands/benchmark/text/";
+constexpr const char* kLicense = "LICENSE.txt";
 
 // Half of the last bit of float32, in which a picture's file holds its values.
 constexpr double kFileRounding = 0x1p-24;
 
+std::string text_of(const char* name) { return embedded_text(std::string(kTexts) + name); }
+
 void write_text_of(const fs::path& folder, const char* name) {
-    write_atomically(folder / name, embedded_text(std::string(kTexts) + name));
+    write_atomically(folder / name, text_of(name));
 }
 
 std::string numbers(const glm::dvec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
@@ -203,8 +208,18 @@ std::size_t reference_count(std::span<const BenchmarkScene> scenes) {
     return count;
 }
 
+void make_benchmark_folder(const fs::path& folder) {
+    make_output_folder(folder);
+    const fs::path license = folder / kLicense;
+    std::error_code error;
+    if (fs::is_empty(folder, error)) return;
+    if (fs::exists(license, error) && read_text(license) == text_of(kLicense)) return;
+    throw Error(folder.string() + ": holds other things than a benchmark; give a new folder");
+}
+
 void write_benchmark(const fs::path& folder, std::span<const BenchmarkScene> scenes,
                      const std::function<void()>& advance) {
+    write_text_of(folder, kLicense);  // first: it marks the folder
     Json views{{"benchmark", "Kilolux many lights"},
                {"version", 1},
                {"license", "CC0-1.0"},
@@ -214,9 +229,7 @@ void write_benchmark(const fs::path& folder, std::span<const BenchmarkScene> sce
         views["scenes"].push_back(RowWriter(folder, row, advance).write());
     }
     write_json((folder / "views.json").string(), views);
-    for (const char* name : {"README.md", "LICENSE.txt", "blender_view.py"}) {
-        write_text_of(folder, name);
-    }
+    for (const char* name : {"README.md", "blender_view.py"}) write_text_of(folder, name);
 }
 
 }  // namespace kilolux

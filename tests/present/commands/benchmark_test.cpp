@@ -301,12 +301,57 @@ TEST_F(ScoreRefusals, PicturesThatCannotBeCompared) {
                    "grey.exr: has channels Y; score needs R, G and B");
 }
 
+// The frame is a part of a picture of 8x2 pixels; another one is in the primaries of ACES AP1.
+TEST_F(ScoreRefusals, PicturesOfOtherThings) {
+    Frame frame;
+    frame.width = 4;
+    frame.height = 2;
+    frame.radiance.assign(24, 1.0f);
+    ImageOptions options;
+    options.crop = PixelRect{2, 0, 4, 2};
+    options.full_width = 8;
+    options.full_height = 2;
+    write_image(file("part.exr"), frame, {}, options);
+    expect_refused({file("part.exr"), "--reference", file("reference.exr")}, 1,
+                   "part.exr: is 4x2 pixels of a picture of 8x2; score needs all of it");
+    ImageLayout layout{4, 2, {}};
+    for (const char* name : {"R", "G", "B"}) {
+        layout.channels.push_back({name, SampleType::float32});
+    }
+    layout.attributes.emplace_back(
+        "chromaticities",
+        std::vector<float>{0.713f, 0.293f, 0.165f, 0.83f, 0.128f, 0.044f, 0.32168f, 0.33767f});
+    const auto* bytes = reinterpret_cast<const unsigned char*>(frame.radiance.data());
+    write_atomically(file("aces.exr"),
+                     encode_pixels("aces.exr", "openexr", layout, {bytes, 4 * 24}, 12));
+    expect_refused({file("aces.exr"), "--reference", file("reference.exr")}, 1,
+                   "aces.exr: its primaries are 0.713 0.293 0.165 0.83 ");
+}
+
+TEST_F(ScoreRefusals, ReferencesWithoutLight) {
+    ASSERT_EQ(run_kilolux({"export", "plain", "-o", file("dark.glb"), "--resolution", "64,32",
+                           "--lights", "0", "--rig", "none", "-q"})
+                  .code,
+              0);
+    expect_refused({file("reference.exr"), "--scene", file("dark.glb"), "-q"}, 1,
+                   "dark.glb: has no lights; --lights N adds some");
+    Frame black;
+    black.width = 4;
+    black.height = 2;
+    black.radiance.assign(24, 0.0f);
+    write_image(file("black.exr"), black);
+    expect_refused({file("reference.exr"), "--reference", file("black.exr")}, 1,
+                   "the reference is black: ");
+}
+
 TEST_F(ScoreRefusals, CommandLinesThatCannotBeObeyed) {
     const std::string picture = file("reference.exr");
     expect_refused({picture}, 2, "needs one of --scene SCENE and --reference FILE");
     expect_refused({picture, "--scene", "plain", "--reference", picture}, 2, "needs one of");
     expect_refused({picture, "--reference", picture, "--inverse-square"}, 2, "--inverse-square: ");
     expect_refused({picture, "--scene", "plain", "--resolution", "4,2"}, 2, "--resolution: ");
+    expect_refused({picture, "--scene", "plain", "--samples", "4"}, 2, "--samples: ");
+    expect_refused({picture, "--scene", "plain", "--reflections"}, 2, "--reflections: ");
 }
 
 // The camera of an exported scene has a shape.
@@ -325,6 +370,20 @@ TEST(ExportBenchmark, TakesNoOptionsOfAScene) {
     EXPECT_EQ(result.code, 2);
     EXPECT_TRUE(contains(result.err, "it does not go with --lights")) << result.err;
     EXPECT_FALSE(fs::exists(set));
+}
+
+// A README.md of somebody else stays; a benchmark is made again in its folder.
+TEST(ExportBenchmark, NeedsAFolderOfItsOwn) {
+    const TemporaryFolder folder;
+    make_benchmark_folder(folder / "new");
+    EXPECT_TRUE(fs::is_directory(folder / "new"));
+    write_benchmark(folder / "new", {}, [] {});
+    make_benchmark_folder(folder / "new");
+    write_atomically(folder / "README.md", "mine");
+    const ChildResult result = run_kilolux({"export", "--benchmark", folder.path().string()});
+    EXPECT_EQ(result.code, 1);
+    EXPECT_TRUE(contains(result.err, "holds other things than a benchmark")) << result.err;
+    EXPECT_EQ(text_of_file(folder / "README.md"), "mine");
 }
 
 }  // namespace
