@@ -84,7 +84,6 @@ void settle_options(ScoreOptions& options, const CLI::App& command) {
               "score: needs one of --scene SCENE and --reference FILE");
     refuse_if(is_given(command, "--resolution"), "--resolution: the size is that of the picture");
     refuse_if(is_given(command, "--samples"), "--samples: the reference has the pixels' centres");
-    refuse_if(is_given(command, "--reflections"), "--reflections: the reference has none");
     refuse_if(options.inverse_square && shared.scene.empty(),
               "--inverse-square: goes with --scene; a reference file has its own falloff");
     if (shared.settings.tails == Tails::automatic) shared.settings.tails = Tails::exact;

@@ -351,7 +351,6 @@ TEST_F(ScoreRefusals, CommandLinesThatCannotBeObeyed) {
     expect_refused({picture, "--reference", picture, "--inverse-square"}, 2, "--inverse-square: ");
     expect_refused({picture, "--scene", "plain", "--resolution", "4,2"}, 2, "--resolution: ");
     expect_refused({picture, "--scene", "plain", "--samples", "4"}, 2, "--samples: ");
-    expect_refused({picture, "--scene", "plain", "--reflections"}, 2, "--reflections: ");
 }
 
 // The camera of an exported scene has a shape.
