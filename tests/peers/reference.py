@@ -26,14 +26,16 @@ WHITE = {"playcanvas"}
 
 
 class Surfaces:
-    """The surfaces that the pixels' centres see, from Kilolux's float32 layers."""
+    """The surfaces that the centres of every `step`-th pixel see, from Kilolux's float32 layers."""
 
-    def __init__(self, kilolux, scene, size):
+    def __init__(self, kilolux, scene, size, step=1):
+        self.chosen = (slice(step // 2, None, step),) * 2  # rows, columns
         frame = kilolux.render(str(scene.glb), resolution=size, lights=0, rig="none", ambient=0, gbuffer="full",
                                aov=["position", "normal", "depth"], quiet=True)
-        self.shape = (size[1], size[0])
-        self.position = frame.aovs["position"].reshape(-1, 3).astype(float)
-        self.normal = frame.aovs["normal"].reshape(-1, 3).astype(float)
+        position, normal = (frame.aovs[name][self.chosen] for name in ("position", "normal"))
+        self.shape = position.shape[:2]
+        self.position = position.reshape(-1, 3).astype(float)
+        self.normal = normal.reshape(-1, 3).astype(float)
         self.drawn = np.linalg.norm(self.normal, axis=1) > 0.5
 
 
