@@ -2,6 +2,7 @@
 // Serves the pages, the packages and a work folder on this machine, and obeys lines of JSON on stdin with lines of JSON on stdout:
 //   {"open": "three", "settings": {...}}   -> {"facts": {...}}
 //   {"frame": TIME}                        -> {"ms": ...}
+//   {"close": true}                        -> {}
 //   {"picture": true}                      -> {"picture": base64 of float32 RGBA, row 0 on top}
 // node browser.mjs BUILD CHROMIUM: BUILD has node_modules/ and work/.
 import {createReadStream, existsSync, statSync} from 'node:fs';
@@ -39,8 +40,15 @@ const browser = await browsers.launch({
 });
 let page = null, faults = [];
 
-async function open(name, settings) {
+// A page that stays open takes the cores' time.
+async function close() {
     if (page !== null) await page.close();
+    page = null;
+    return {};
+}
+
+async function open(name, settings) {
+    await close();
     page = await browser.newPage();
     page.setDefaultTimeout(0);
     faults = [];
@@ -56,6 +64,7 @@ async function open(name, settings) {
 async function obey(order) {
     if ('open' in order) return {facts: await open(order.open, order.settings || {}), messages: faults};
     if ('frame' in order) return {ms: await page.evaluate(t => window.kilolux.frame(t), order.frame)};
+    if ('close' in order) return close();
     if ('picture' in order) return {picture: await page.evaluate(() => window.kilolux.picture()), messages: faults};
     throw new Error('no such order: ' + JSON.stringify(order));
 }
