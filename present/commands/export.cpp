@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <set>
-
 #include "host/base/error.h"
 #include "host/base/log.h"
 #include "host/base/system/atomic_write.h"
@@ -15,6 +13,7 @@
 #include "host/scene/lights/light_generator.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/progress.h"
+#include "present/cli/refuse_others.h"
 #include "present/cli/scene_choice.h"
 #include "present/commands/benchmark/write_benchmark.h"
 
@@ -79,17 +78,6 @@ std::string summary(const Scene& scene, const ExportedScene& exported, const fs:
         exported.unusable_lights, files, (bytes + 1023) / 1024);
 }
 
-// The scenes of the benchmark are as they are: an option of a scene would be ignored.
-void refuse_scene_options(const CLI::App& command) {
-    const std::set<std::string> allowed = {"--benchmark", "--quiet", "--verbose", "--progress",
-                                           "--config"};
-    for (const CLI::Option* option : command.get_options()) {
-        const std::string name = option->get_name();
-        refuse_if(option->count() > 0 && !allowed.contains(name),
-                  "--benchmark: writes scenes of its own, so it does not go with " + name);
-    }
-}
-
 void export_benchmark(const ExportOptions& options) {
     make_benchmark_folder(options.benchmark);
     load_image_library();
@@ -101,7 +89,7 @@ void export_benchmark(const ExportOptions& options) {
 
 void run_export(ExportOptions& options, const CLI::App& command) {
     if (!options.benchmark.empty()) {
-        refuse_scene_options(command);
+        refuse_others(command, "--benchmark", "writes scenes of its own");
         begin_command(options.shared);
         return export_benchmark(options);
     }

@@ -21,6 +21,7 @@
 #include "host/scene/generated/scenes.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/progress.h"
+#include "present/cli/refuse_others.h"
 #include "present/cli/scene_choice.h"
 #include "present/cli/stats_json.h"
 #include "present/image/read.h"
@@ -84,8 +85,7 @@ void settle_options(ScoreOptions& options, const CLI::App& command) {
               "score: needs one of --scene SCENE and --reference FILE");
     refuse_if(is_given(command, "--resolution"), "--resolution: the size is that of the picture");
     refuse_if(is_given(command, "--samples"), "--samples: the reference has the pixels' centres");
-    refuse_if(options.inverse_square && shared.scene.empty(),
-              "--inverse-square: goes with --scene; a reference file has its own falloff");
+    refuse_others(command, "--reference", "is a picture, not a scene", {"PICTURE", "--json"});
     if (shared.settings.tails == Tails::automatic) shared.settings.tails = Tails::exact;
     if (!shared.ambient_given) shared.settings.ambient = 0.0f;
     shared.ambient_given = true;

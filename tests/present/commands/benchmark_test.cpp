@@ -24,14 +24,14 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 using Words = std::vector<std::string>;
 
-constexpr int kWidth = 32, kHeight = 18;
+constexpr int kViewWidth = 32, kViewHeight = 18;
 
 std::vector<BenchmarkScene> small_rows() {
     const auto rows = benchmark_scenes();
     std::vector<BenchmarkScene> out(rows.begin(), rows.end());
     for (BenchmarkScene& row : out) {
-        row.width = kWidth;
-        row.height = kHeight;
+        row.width = kViewWidth;
+        row.height = kViewHeight;
         row.generated.count = std::min<std::uint64_t>(row.generated.count, 2000);
     }
     out.back().generated.radius = 6.0;
@@ -89,7 +89,8 @@ TEST_F(Benchmark, EveryFileIsInTheJsonAndTheSameRowsGiveTheSameBytes) {
         for (const Json& view : scene.at("views")) {
             references += view.at("references").size();
             for (const Json& reference : view.at("references")) {
-                EXPECT_EQ(image_size(file(reference.at("file"))), std::pair(kWidth, kHeight));
+                EXPECT_EQ(image_size(file(reference.at("file"))),
+                          std::pair(kViewWidth, kViewHeight));
             }
         }
     }
@@ -148,14 +149,14 @@ TEST_F(Benchmark, OurOwnPicturesScoreWell) {
 // reach one of them.
 RgbImage capped_picture(const Scene& scene, std::size_t cap, int block) {
     const Camera camera = camera_of(scene.cameras.at(0));
-    const SurfaceSamples all = RayCaster(scene).cast(camera, kWidth, kHeight);
+    const SurfaceSamples all = RayCaster(scene).cast(camera, kViewWidth, kViewHeight);
     const ReferenceLights lights = reference_lights(scene.lights, camera);
     const ReferenceOptions options;
-    RgbImage out = make_rgb_image(kWidth, kHeight);
-    for (int top = 0; top < kHeight; top += block) {
-        for (int left = 0; left < kWidth; left += block) {
-            const int width = std::min(block, kWidth - left),
-                      height = std::min(block, kHeight - top);
+    RgbImage out = make_rgb_image(kViewWidth, kViewHeight);
+    for (int top = 0; top < kViewHeight; top += block) {
+        for (int left = 0; left < kViewWidth; left += block) {
+            const int width = std::min(block, kViewWidth - left),
+                      height = std::min(block, kViewHeight - top);
             SurfaceSamples part = make_surface_samples(width, height);
             for (int y = 0; y < height; ++y) {
                 for (int x = 0; x < width; ++x) part.at(x, y) = all.at(left + x, top + y);
@@ -348,7 +349,8 @@ TEST_F(ScoreRefusals, CommandLinesThatCannotBeObeyed) {
     const std::string picture = file("reference.exr");
     expect_refused({picture}, 2, "needs one of --scene SCENE and --reference FILE");
     expect_refused({picture, "--scene", "plain", "--reference", picture}, 2, "needs one of");
-    expect_refused({picture, "--reference", picture, "--inverse-square"}, 2, "--inverse-square: ");
+    expect_refused({picture, "--reference", picture, "--inverse-square"}, 2,
+                   "--reference: is a picture, not a scene, so it does not go with --inverse");
     expect_refused({picture, "--scene", "plain", "--resolution", "4,2"}, 2, "--resolution: ");
     expect_refused({picture, "--scene", "plain", "--samples", "4"}, 2, "--samples: ");
 }
