@@ -13,6 +13,7 @@ namespace {
 constexpr std::uint64_t kForestSeed = 4;
 constexpr int kForestTrees = 250;
 constexpr int kTreeLanterns = 12;     // of a tree
+constexpr double kCrown = 1.5;        // [m], radius; lanterns hang beside it
 constexpr double kForestEdge = 40.0;  // [m], half of the ground
 constexpr double kClearing = 2.5;     // [m], half of the path along Z
 constexpr float kLanternRange = 3;    // [m]
@@ -32,10 +33,11 @@ void hang_lanterns(Scene& scene, std::uint64_t tree, const glm::dvec3& at) {
         const auto random = [item](std::uint64_t k) {
             return benchmark_random(kForestSeed, item, k);
         };
-        const double turn = 2.0 * std::numbers::pi * random(0), out = 0.6 + 1.2 * random(1);
+        const double turn = 2.0 * std::numbers::pi * random(0);
+        const double out = kCrown + 0.1 + 0.6 * random(1);
         SceneLight& light = scene.lights.emplace_back();
         light.position =
-            at + glm::dvec3(out * std::cos(turn), 0.5 + 4.0 * random(2), out * std::sin(turn));
+            at + glm::dvec3(out * std::cos(turn), 0.5 + 6.0 * random(2), out * std::sin(turn));
         const auto warm = static_cast<float>(random(3));
         light.intensity = 1.4f * glm::vec3(1.0f, 0.4f + 0.4f * warm, 0.12f + 0.5f * warm * warm);
         light.range = kLanternRange;
@@ -53,8 +55,8 @@ Scene make_lantern_forest() {
     place(scene, add_bare(scene, "ground", ground, add_matte(scene, "moss", {0.2f, 0.28f, 0.12f})));
     const int trunks =
         add_bare(scene, "trunk", trunk, add_matte(scene, "bark", {0.35f, 0.26f, 0.2f}));
-    const int crowns =
-        add_bare(scene, "crown", ball(1.5, 24), add_matte(scene, "leaves", {0.16f, 0.36f, 0.14f}));
+    const int crowns = add_bare(scene, "crown", ball(kCrown, 24),
+                                add_matte(scene, "leaves", {0.16f, 0.36f, 0.14f}));
     for (std::uint64_t tree = 0; tree < kForestTrees; ++tree) {
         const glm::dvec3 at = tree_place(tree);
         place(scene, trunks, placed(at));

@@ -103,7 +103,7 @@ Scene make_street() {
     add_houses(scene);
     add_posts(scene);
     scene.cameras = {camera_from_to("along", {1.6, 1.7, 6.0}, {-0.4, 2.6, -40.0}, 50.0),
-                     camera_from_to("above", {-6.5, 14.0, 9.0}, {1.0, 0.0, -34.0}, 45.0)};
+                     camera_from_to("above", {-2.0, 13.0, 9.0}, {1.5, 0.0, -26.0}, 55.0)};
     return scene;
 }
 
