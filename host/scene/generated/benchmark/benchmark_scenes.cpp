@@ -32,7 +32,7 @@ const BenchmarkScene kBenchmarkScenes[] = {
     {.name = "million",
      .about = "blocks on a plain, Lambertian; a million points by a formula",
      .make = make_block_field,
-     .generated = LightOptions{.count = 1'000'000, .seed = 6, .radius = 1.0, .box = {}},
+     .generated = LightOptions{.count = 1'000'000, .seed = 6, .radius = 2.0, .box = {}},
      .by_formula = true,
      .width = 48,
      .height = 27,

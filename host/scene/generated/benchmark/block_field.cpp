@@ -24,7 +24,7 @@ Scene make_block_field() {
     place(scene, add_bare(scene, "ground", ground, add_matte(scene, "sand", glm::vec3(0.5f))));
     place(scene,
           add_bare(scene, "blocks", blocks, add_matte(scene, "stone", {0.45f, 0.5f, 0.55f})));
-    scene.cameras = {camera_from_to("over", {8.0, 9.0, 60.0}, {0.0, 0.0, 20.0}, 50.0)};
+    scene.cameras = {camera_from_to("over", {4.0, 6.0, 62.0}, {0.0, 0.5, 46.0}, 50.0)};
     scene.light_box = {{-kFieldEdge, 0.05, -kFieldEdge}, {kFieldEdge, 4.0, kFieldEdge}};
     return scene;
 }

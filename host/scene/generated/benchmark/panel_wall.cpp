@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::uint64_t kPanelSeed = 5;
 constexpr double kPanelWallZ = -10.0;  // [m]
+constexpr double kFarWallZ = 6.0;      // [m]
 constexpr int kPanelColumns = 12, kPanelRows = 8;
 constexpr float kPanelWidth = 1.4f, kPanelHeight = 0.8f;  // [m]
 
@@ -26,9 +27,11 @@ void add_panels(Scene& scene) {
         light.side = {1, 0, 0};
         light.width = kPanelWidth;
         light.height = kPanelHeight;
-        light.intensity = 6.0f * glm::vec3(0.3f + 0.7f * random(0), 0.3f + 0.7f * random(1),
-                                           0.3f + 0.7f * random(2));
-        light.range = 16.0f;
+        // From red on the left to blue on the right, of random brightness.
+        const float right = static_cast<float>(i % kPanelColumns) / (kPanelColumns - 1);
+        light.intensity = (1.0f + 8.0f * random(0)) *
+                          glm::vec3(1.0f - 0.9f * right, 0.25f + 0.3f * random(1), 0.1f + right);
+        light.range = 20.0f;
     }
 }
 
@@ -42,8 +45,9 @@ Scene make_panel_wall() {
     const int paint = add_diffuse(scene, "paint", {0.2f, 0.35f, 0.5f});
     scene.materials.back().roughness = 0.6f;
     MeshBuilder wall, block;
-    wall.level({-14.0, kPanelWallZ}, {14.0, 14.0}, 0.0);
+    wall.level({-14.0, kPanelWallZ}, {14.0, kFarWallZ}, 0.0);
     wall.wall({-14.0, 0.0}, {14.0, 11.0}, kPanelWallZ, 1.0);
+    wall.wall({-14.0, 0.0}, {14.0, 11.0}, kFarWallZ, -1.0);
     block.box({-0.7, 0.0, -0.7}, {0.7, 2.2, 0.7});
     place(scene, add_bare(scene, "room", wall, stone));
     const int blocks = add_bare(scene, "block", block, clay);
@@ -53,7 +57,8 @@ Scene make_panel_wall() {
         place(scene, i % 2 == 0 ? balls : blocks, placed(at));
     }
     add_panels(scene);
-    scene.cameras = {camera_from_to("front", {6.0, 3.5, 13.0}, {-0.5, 1.8, -4.0}, 50.0)};
+    scene.cameras = {
+        camera_from_to("from the wall", {6.0, 4.5, kPanelWallZ + 1.5}, {-1.5, 1.2, 0.0}, 60.0)};
     return scene;
 }
 
