@@ -13,7 +13,11 @@ import pathlib
 import sys
 
 import bpy
+import numpy
 from mathutils import Matrix, Vector
+
+if "bool" not in numpy.__dict__:
+    numpy.bool = bool  # numpy 1.24 lacks it, the glTF importer of Blender 3.4 needs it
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 FILTER = 0.01  # [pixel]: samples lie at the pixels' centres
@@ -44,10 +48,25 @@ def load_surfaces(name):
         material.node_tree.links.new(diffuse.outputs[0], out.inputs[0])
 
 
+def shape_cone(light, inner, outer):
+    """glTF's cone, of a light that points along its -Z: Blender's own spots fade otherwise."""
+    light.use_nodes = True
+    nodes, link = light.node_tree.nodes, light.node_tree.links.new
+    towards, axes = nodes.new("ShaderNodeTexCoord"), nodes.new("ShaderNodeSeparateXYZ")
+    share, square = nodes.new("ShaderNodeMapRange"), nodes.new("ShaderNodeMath")
+    share.inputs["From Min"].default_value = -math.cos(outer)
+    share.inputs["From Max"].default_value = -math.cos(inner)
+    square.operation, square.inputs[1].default_value = "POWER", 2
+    link(towards.outputs["Normal"], axes.inputs[0])
+    link(axes.outputs["Z"], share.inputs["Value"])
+    link(share.outputs[0], square.inputs[0])
+    link(square.outputs[0], nodes["Emission"].inputs["Strength"])
+
+
 def add_lights(name, shadows):
     for row in csv.DictReader(open(FOLDER / (name + "_lights.csv"))):
         spot = row["type"] == "spot"
-        light = bpy.data.lights.new("light", "SPOT" if spot else "POINT")
+        light = bpy.data.lights.new("light", "POINT")
         rgb = [float(row[c + "_cd"]) for c in ("red", "green", "blue")]
         light.color = [c / max(rgb) for c in rgb]
         light.energy = 4 * math.pi * max(rgb)  # Blender's watts; 1 W/sr here stands for 1 cd
@@ -57,8 +76,7 @@ def add_lights(name, shadows):
         position = [float(row[axis + "_m"]) for axis in "xyz"]
         back, right = (0, 0, 1), (1, 0, 0)
         if spot:
-            light.spot_size = 2 * float(row["outer_cone_rad"])
-            light.spot_blend = 1  # Blender's cone fades otherwise than glTF's
+            shape_cone(light, float(row["inner_cone_rad"]), float(row["outer_cone_rad"]))
             back, right = [-c for c in vector("direction_")], vector("side_")
         up = Vector(back).cross(Vector(right))
         thing = bpy.data.objects.new("light", light)
