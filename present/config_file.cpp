@@ -138,9 +138,8 @@ Entries toml_entries(const std::filesystem::path& file, const std::string& text)
 
 CLI::Option& option_of(CLI::App& command, const std::filesystem::path& file,
                        const std::string& name) {
-    CLI::Option* option = name == "scene"
-                              ? command.get_option_no_throw("SCENE")
-                              : command.get_option_no_throw(name.size() > 1 ? "--" + name : name);
+    CLI::Option* option = command.get_option_no_throw(name.size() > 1 ? "--" + name : name);
+    if (option == nullptr && name == "scene") option = command.get_option_no_throw("SCENE");
     if (option != nullptr && name != "config" && name != "help") return *option;
     throw UsageError(fmt::format("{}: unknown option '{}'{}", file.string(), name,
                                  did_you_mean("--" + name, option_names(command))));

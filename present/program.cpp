@@ -12,6 +12,7 @@
 #include "present/cli/commit.h"
 #include "present/commands/assemble/assemble.h"
 #include "present/commands/bench/bench.h"
+#include "present/commands/benchmark/score.h"
 #include "present/commands/certify/certify.h"
 #include "present/commands/export.h"
 #include "present/commands/info.h"
@@ -96,6 +97,7 @@ Program::Program() : app_(kMeaning, "kilolux") {
     add_info_command(*this);
     add_photometry_command(*this);
     add_export_command(*this);
+    add_score_command(*this);
     add_assemble_command(*this);
     add_merge_command(*this);
 }

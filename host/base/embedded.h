@@ -11,7 +11,8 @@ struct EmbeddedFile {
     std::string_view text;
 };
 
-/// The kernel and shader sources that this binary holds; made by host/base/embed.cmake.
+/// The sources of kernels and shaders and the texts of the benchmark that this binary holds; made
+/// by host/base/embed.cmake.
 std::span<const EmbeddedFile> embedded_files();
 
 }  // namespace kilolux

@@ -8,10 +8,14 @@
 #include "host/base/system/atomic_write.h"
 #include "host/base/system/interrupt.h"
 #include "host/base/text.h"
+#include "host/images/images.h"
 #include "host/scene/export/export_scene.h"
 #include "host/scene/lights/light_generator.h"
 #include "present/cli/option_builder.h"
+#include "present/cli/progress.h"
+#include "present/cli/refuse_others.h"
 #include "present/cli/scene_choice.h"
+#include "present/commands/benchmark/write_benchmark.h"
 
 namespace kilolux {
 namespace {
@@ -83,7 +87,21 @@ std::string summary(const Scene& scene, const ExportedScene& exported, const fs:
         exported.unusable_lights, files, (bytes + 1023) / 1024);
 }
 
-void run_export(ExportOptions& options) {
+void export_benchmark(const ExportOptions& options) {
+    make_benchmark_folder(options.benchmark);
+    load_image_library();
+    const auto scenes = benchmark_scenes();
+    Progress progress("references", reference_count(scenes), options.shared.shown_progress());
+    write_benchmark(options.benchmark, scenes, [&progress] { progress.advance(); });
+    note("wrote   " + options.benchmark.string());
+}
+
+void run_export(ExportOptions& options, const CLI::App& command) {
+    if (!options.benchmark.empty()) {
+        refuse_others(command, "--benchmark", "writes scenes of its own");
+        begin_command(options.shared);
+        return export_benchmark(options);
+    }
     if (options.output.empty()) throw UsageError("--output: needs a file, e.g. -o scene.glb");
     begin_command(options.shared);
     check_can_write(options.output);
@@ -101,7 +119,8 @@ void run_export(ExportOptions& options) {
 constexpr const char* kExportExamples =
     "  kilolux export -o atrium.glb --lights 1000\n"
     "  kilolux export hall.glb -o hall.gltf --lights 0 --camera-position 0,2,8\n"
-    "  kilolux export walk.glb -o pose.glb --time 1.5 --lights 200";
+    "  kilolux export walk.glb -o pose.glb --time 1.5 --lights 200\n"
+    "  kilolux export --benchmark many_lights";
 
 }  // namespace
 
@@ -110,7 +129,11 @@ void visit_settings(ExportOptions& options, const SettingVisitor& f) {
     OptionBuilder(f, "Output")
         .value({"--output,-o", "FILE", "",
                 "Scene: .glb holds everything, .gltf has its buffer and images beside it"},
-               options.output, exported_file);
+               options.output, exported_file)
+        .text({"--benchmark", "DIR", "",
+               "In place of a scene: six scenes of many lights with their views and float64 "
+               "reference pictures, for `kilolux score`; minutes on two CPU cores"},
+              options.benchmark);
 }
 
 void add_export_options(CLI::App& command, ExportOptions& options) {

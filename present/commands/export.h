@@ -9,6 +9,7 @@ namespace kilolux {
 struct ExportOptions {
     SharedOptions shared;
     std::filesystem::path output;
+    std::filesystem::path benchmark;  // folder for the benchmark in place of a scene; empty: none
     bool operator==(const ExportOptions&) const = default;
 };
 

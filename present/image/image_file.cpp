@@ -16,6 +16,7 @@
 #include "host/base/system/parallel.h"
 #include "host/base/version.h"
 #include "host/images/images.h"
+#include "host/images/rec709.h"
 #include "present/image/image_notes.h"
 
 namespace kilolux {
@@ -112,9 +113,6 @@ void put_display(FileRows& out, const Frame& frame, const ImageOptions& options)
     out.own =
         options.bits == 16 ? codes_of<std::uint16_t>(colours) : codes_of<std::uint8_t>(colours);
 }
-
-// CIE xy of red, green, blue and white of Rec. 709 (ITU-R BT.709-6, 1.3 and 1.4).
-constexpr std::array kRec709 = {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
 
 void describe_camera(ImageLayout& layout, const Camera& camera) {
     glm::dmat4 view_from_world(glm::transpose(camera.world_from_view));

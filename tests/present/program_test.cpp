@@ -36,7 +36,7 @@ TEST(Program, CommandLinesThatCannotBeObeyedExitWithTwo) {
         {{}, "no command given"},
         {{"redner"},
          "'redner' is no command; there are render, view, bench, report, certify, info, "
-         "photometry, export, "
+         "photometry, export, score, "
          "assemble, merge; did you "
          "mean 'render'?"},
         {{"--frobnicate"}, "unknown option --frobnicate"},

@@ -14,13 +14,6 @@
 namespace kilolux {
 namespace {
 
-// A mesh of positions and normals alone.
-int add_bare(Scene& scene, const char* name, const MeshBuilder& builder, int material) {
-    Mesh mesh = builder.build(name, material, 1.0, false);
-    mesh.texcoords[0].clear();
-    return add_mesh(scene, std::move(mesh));
-}
-
 // Textures of the grid, by their index in Scene::textures.
 enum GridTexture { kChecker, kBumps, kMetalRoughness, kOcclusion, kHoles, kGlow };
 
@@ -183,6 +176,12 @@ int add_diffuse(Scene& scene, const char* name, const glm::vec3& color) {
     material.base_color = glm::vec4(color, 1.0f);
     material.metallic = 0.0f;
     return static_cast<int>(scene.materials.size()) - 1;
+}
+
+int add_bare(Scene& scene, const char* name, const MeshBuilder& builder, int material) {
+    Mesh mesh = builder.build(name, material, 1.0, false);
+    mesh.texcoords[0].clear();
+    return add_mesh(scene, std::move(mesh));
 }
 
 MeshBuilder ball(double radius, int segments) {

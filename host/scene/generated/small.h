@@ -21,6 +21,9 @@ Scene make_corridor(std::uint64_t seed);
 /// Appends a dielectric material of one colour, roughness 1; returns its index.
 int add_diffuse(Scene& scene, const char* name, const glm::vec3& color);
 
+/// Appends a mesh of positions and normals alone; returns its index.
+int add_bare(Scene& scene, const char* name, const MeshBuilder& builder, int material);
+
 /// A ball of `radius` about the origin with uv once round; poles at +y and -y.
 MeshBuilder ball(double radius, int segments);
 

@@ -4,7 +4,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <queue>
@@ -15,6 +14,7 @@
 #include "host/base/system/memory.h"
 #include "host/base/system/parallel.h"
 #include "host/images/images.h"
+#include "host/images/rec709.h"
 #include "host/scene/lights/light_side.h"
 #include "host/scene/lights/radiance_header.h"
 
@@ -117,8 +117,6 @@ glm::dmat3 xyz_from_rgb(std::span<const float> xy) {
 
 // To linear Rec. 709 from other primaries; white stays white (Bradford's adaptation: Lam 1985).
 glm::dmat3 rec709_from(std::span<const float> chromaticities) {
-    constexpr std::array<float, 8> kRec709 = {0.64f, 0.33f, 0.3f,    0.6f,
-                                              0.15f, 0.06f, 0.3127f, 0.329f};
     const glm::dmat3 bradford(0.8951, -0.7502, 0.0389, 0.2664, 1.7135, -0.0685, -0.1614, 0.0367,
                               1.0296);
     const glm::dmat3 from = bradford * xyz_from_rgb(chromaticities);

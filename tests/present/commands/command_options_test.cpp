@@ -6,6 +6,7 @@
 #include "present/cli/option_builder.h"
 #include "present/commands/assemble/assemble.h"
 #include "present/commands/bench/bench_options.h"
+#include "present/commands/benchmark/score.h"
 #include "present/commands/certify/certify.h"
 #include "present/commands/export.h"
 #include "present/commands/info.h"
@@ -236,10 +237,19 @@ void walk_info() {
 void walk_export() {
     walk(add_export_options,
          [](const ExportOptions& o) {
-             const auto& [shared, output] = o;
-             return std::tie(shared, output);
+             const auto& [shared, output, benchmark] = o;
+             return std::tie(shared, output, benchmark);
          },
-         {{"--background", kRefused}, {"--output", "a.glb"}});
+         {{"--background", kRefused}, {"--output", "a.glb"}, {"--benchmark", "set"}});
+}
+
+void walk_score() {
+    walk(add_score_options,
+         [](const ScoreOptions& o) {
+             const auto& [shared, picture, reference, inverse_square, json] = o;
+             return std::tie(shared, reference, inverse_square, json);
+         },
+         {{"--background", kRefused}, {"--scene", "grid"}}, {"mine.exr"});
 }
 
 void walk_photometry() {
@@ -275,10 +285,10 @@ void walk_merge() {
 
 TEST(CommandOptions, ChangeThemselvesAlone) {
     const std::map<std::string, void (*)()> walks = {
-        {"render", walk_render},        {"view", walk_view},         {"bench", walk_bench},
-        {"report", walk_report},        {"certify", walk_certify},   {"info", walk_info},
-        {"export", walk_export},        {"assemble", walk_assemble}, {"merge", walk_merge},
-        {"photometry", walk_photometry}};
+        {"render", walk_render},         {"view", walk_view},         {"bench", walk_bench},
+        {"report", walk_report},         {"certify", walk_certify},   {"info", walk_info},
+        {"export", walk_export},         {"assemble", walk_assemble}, {"merge", walk_merge},
+        {"photometry", walk_photometry}, {"score", walk_score}};
     const Program program;
     for (const CLI::App* command : program.app().get_subcommands({})) {
         const std::string& name = command->get_name();

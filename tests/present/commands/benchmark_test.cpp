@@ -1,0 +1,391 @@
+// SPDX-License-Identifier: Apache-2.0
+// `kilolux export --benchmark` and `kilolux score`, small: the scenes of the benchmark with fewer
+// pixels and lights.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "host/base/text.h"
+#include "host/measure/reference/ray_cast_reference.h"
+#include "host/measure/report/picture_errors.h"
+#include "host/scene/gltf/load_scene.h"
+#include "present/commands/benchmark/write_benchmark.h"
+#include "present/image/image_file.h"
+#include "present/image/read.h"
+#include "tests/support/child.h"
+#include "tests/support/messages.h"
+#include "tests/support/temporary_folder.h"
+
+namespace kilolux {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using Words = std::vector<std::string>;
+
+constexpr int kViewWidth = 32, kViewHeight = 18;
+
+std::vector<BenchmarkScene> small_rows() {
+    const auto rows = benchmark_scenes();
+    std::vector<BenchmarkScene> out(rows.begin(), rows.end());
+    for (BenchmarkScene& row : out) {
+        row.width = kViewWidth;
+        row.height = kViewHeight;
+        row.generated.count = std::min<std::uint64_t>(row.generated.count, 2000);
+    }
+    out.back().generated.radius = 6.0;
+    return out;
+}
+
+// The small benchmark, written once.
+class Benchmark : public testing::Test {
+ protected:
+    static void SetUpTestSuite() {
+        folder_ = new TemporaryFolder;
+        write_benchmark(folder(), small_rows(), [] { ++steps_; });
+    }
+    static void TearDownTestSuite() {
+        delete folder_;
+        folder_ = nullptr;
+    }
+    static fs::path folder() { return folder_->path(); }
+    static std::string file(const std::string& name) { return (folder() / name).string(); }
+    static Json views() { return Json::parse(text_of_file(folder() / "views.json")); }
+
+    // The result of a score that must succeed.
+    static Json score(Words words) {
+        words.insert(words.begin(), "score");
+        words.push_back("--json");
+        const ChildResult result = run_kilolux(words);
+        EXPECT_EQ(result.code, 0) << result.err;
+        return result.code == 0 ? Json::parse(result.out) : Json();
+    }
+
+    static TemporaryFolder* folder_;
+    static std::size_t steps_;
+};
+
+TemporaryFolder* Benchmark::folder_ = nullptr;
+std::size_t Benchmark::steps_ = 0;
+
+// The words of a command of views.json for a picture, without "kilolux score PICTURE.exr --scene
+// NAME.glb".
+Words words_behind_scene(const std::string& command) {
+    Words out;
+    const auto words = split(command, ' ');
+    for (std::size_t i = 5; i < words.size(); ++i) out.emplace_back(words[i]);
+    return out;
+}
+
+TEST_F(Benchmark, EveryFileIsInTheJsonAndTheSameRowsGiveTheSameBytes) {
+    std::size_t references = 0;
+    const std::vector<BenchmarkScene> rows = small_rows();
+    const Json scenes = views().at("scenes");
+    ASSERT_EQ(scenes.size(), rows.size());
+    for (const Json& scene : scenes) {
+        EXPECT_TRUE(fs::exists(file(scene.at("scene"))));
+        EXPECT_TRUE(fs::exists(file(scene.at("lights"))));
+        for (const Json& view : scene.at("views")) {
+            references += view.at("references").size();
+            for (const Json& reference : view.at("references")) {
+                EXPECT_EQ(image_size(file(reference.at("file"))),
+                          std::pair(kViewWidth, kViewHeight));
+            }
+        }
+    }
+    EXPECT_EQ(references, reference_count(rows));
+    EXPECT_EQ(references, steps_);
+    for (const char* name : {"README.md", "LICENSE.txt", "blender_view.py", "million_lights.py"}) {
+        EXPECT_GT(fs::file_size(file(name)), 0u);
+    }
+    const TemporaryFolder again;
+    write_benchmark(again.path(), rows, [] {});
+    std::size_t files = 0;
+    for (const auto& entry : fs::directory_iterator(folder())) {
+        ++files;
+        EXPECT_TRUE(text_of_file(entry.path()) == text_of_file(again / entry.path().filename()))
+            << entry.path();
+    }
+    EXPECT_EQ(files, 2 * rows.size() + references + 4);
+}
+
+// What the file holds is the float64 reference of the scene's file, rounded once.
+TEST_F(Benchmark, ReferencesAreThoseOfTheirCommands) {
+    for (const Json& scene : views().at("scenes")) {
+        for (const Json& reference : scene.at("views").back().at("references")) {
+            Words words = words_behind_scene(reference.at("score"));
+            words.insert(words.begin(),
+                         {file(reference.at("file")), "--scene", file(scene.at("scene"))});
+            const Json found = score(words);
+            EXPECT_LE(found.at("max-relative").get<double>(),
+                      1.0001 * reference.at("error_at_most_of_value").get<double>())
+                << reference;
+            EXPECT_GT(found.at("psnr-peak").get<double>(), 0.1) << reference;
+        }
+    }
+}
+
+// Our own picture of each first view, with float32 surfaces and every light.
+TEST_F(Benchmark, OurOwnPicturesScoreWell) {
+    for (const Json& scene : views().at("scenes")) {
+        const std::string picture = file("own.exr"), glb = file(scene.at("scene"));
+        const Json reference = scene.at("views").at(0).at("references").at(0);
+        const Words lights = words_behind_scene(reference.at("score"));
+        Words words{"render",    glb,    "-o",    picture, "--resolution", "32,18",
+                    "--gbuffer", "full", "--rig", "none",  "--ambient",    "0"};
+        words.insert(words.end(), lights.begin(), lights.end());
+        const ChildResult made = run_kilolux(words);
+        ASSERT_EQ(made.code, 0) << made.err;
+        const Json found = score({picture, "--reference", file(reference.at("file"))});
+        EXPECT_LE(found.at("relmse").get<double>(), 1e-5) << scene.at("name");
+        EXPECT_LE(found.at("lost-light").get<double>(), 1e-4) << scene.at("name");
+        EXPECT_LE(found.at("added-light").get<double>(), 1e-4) << scene.at("name");
+        fs::remove(picture);
+    }
+}
+
+// The picture of a renderer that keeps `cap` lights of a block of pixels, the first ones that
+// reach one of them.
+RgbImage capped_picture(const Scene& scene, std::size_t cap, int block) {
+    const Camera camera = camera_of(scene.cameras.at(0));
+    const SurfaceSamples all = RayCaster(scene).cast(camera, kViewWidth, kViewHeight);
+    const ReferenceLights lights = reference_lights(scene.lights, camera);
+    const ReferenceOptions options;
+    RgbImage out = make_rgb_image(kViewWidth, kViewHeight);
+    for (int top = 0; top < kViewHeight; top += block) {
+        for (int left = 0; left < kViewWidth; left += block) {
+            const int width = std::min(block, kViewWidth - left),
+                      height = std::min(block, kViewHeight - top);
+            SurfaceSamples part = make_surface_samples(width, height);
+            for (int y = 0; y < height; ++y) {
+                for (int x = 0; x < width; ++x) part.at(x, y) = all.at(left + x, top + y);
+            }
+            ReferenceLights kept;
+            for (const ReferenceLight& light : lights.lights) {
+                const auto reaches = [&](const SurfaceSample& s) {
+                    return s.kind == SurfaceKind::lit &&
+                           incidence(light, s.position, options).attenuation > 0.0;
+                };
+                if (kept.lights.size() < cap && std::ranges::any_of(part.pixels, reaches)) {
+                    kept.lights.push_back(light);
+                }
+            }
+            const RgbImage lit = shade_reference(part, kept, options).radiance;
+            for (int y = 0; y < height; ++y) {
+                const auto from = 3 * part.index(0, y), to = 3 * all.index(left, top + y);
+                std::copy_n(lit.rgb.begin() + static_cast<std::ptrdiff_t>(from), 3 * width,
+                            out.rgb.begin() + static_cast<std::ptrdiff_t>(to));
+            }
+        }
+    }
+    return out;
+}
+
+void write_exr(const fs::path& file, const RgbImage& image) {
+    Frame frame;
+    frame.width = image.width;
+    frame.height = image.height;
+    frame.radiance.assign(image.rgb.begin(), image.rgb.end());
+    write_image(file, frame);
+}
+
+double sum_of(const RgbImage& image) {
+    return std::accumulate(image.rgb.begin(), image.rgb.end(), 0.0);
+}
+
+// Lights dropped by a cap are lost light: exactly what the picture lacks, and no pixel gains.
+TEST_F(Benchmark, ACapOfLightsIsSeen) {
+    const Scene scene = load_scene(file("lantern_forest.glb"));
+    const RgbImage all = capped_picture(scene, scene.lights.size(), 8);
+    const RgbImage capped = capped_picture(scene, 8, 8);
+    write_exr(file("all.exr"), all);
+    write_exr(file("capped.exr"), capped);
+    const std::string glb = file("lantern_forest.glb");
+    const Json whole = score({file("all.exr"), "--scene", glb});
+    EXPECT_LE(whole.at("max-relative").get<double>(), 1e-7);
+    EXPECT_EQ(whole.at("losing-pixels"), 0.0);
+    const Json lossy = score({file("capped.exr"), "--scene", glb});
+    const double lost = 1.0 - sum_of(capped) / sum_of(all);
+    EXPECT_GT(lost, 0.05);
+    EXPECT_NEAR(lossy.at("lost-light").get<double>(), lost, 1e-6);
+    EXPECT_LE(lossy.at("added-light").get<double>(), 1e-7);
+    EXPECT_GT(lossy.at("losing-pixels").get<double>(), 0.1);
+    fs::remove(file("all.exr"));
+    fs::remove(file("capped.exr"));
+}
+
+// The script's lights are the generator's.
+TEST_F(Benchmark, TheScriptComputesTheLightsOfTheMillion) {
+    const std::vector<BenchmarkScene> rows = small_rows();
+    const auto row = std::ranges::find_if(rows, &BenchmarkScene::by_formula);
+    const auto lights = generate_lights(row->generated, row->make(), 0.0);
+    const ChildResult result =
+        run_child({"/usr/bin/python3", file("million_lights.py"), std::to_string(lights.size())});
+    ASSERT_EQ(result.code, 0) << result.err;
+    const auto lines = split(trim(result.out), '\n');
+    ASSERT_EQ(lines.size(), lights.size() + 1);
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const auto words = split(lines[i + 1], ',');
+        ASSERT_EQ(words.size(), 8u);
+        const auto number = [&](std::size_t k) { return number_of<double>(words[k]).value(); };
+        const SceneLight& light = lights[i];
+        EXPECT_EQ(glm::dvec3(number(1), number(2), number(3)), light.position) << i;
+        EXPECT_EQ(glm::dvec3(number(4), number(5), number(6)), glm::dvec3(light.intensity)) << i;
+        EXPECT_EQ(number(7), double{light.range});
+    }
+}
+
+TEST_F(Benchmark, LightTablesHaveEveryLight) {
+    for (const char* name : {"street", "panel_wall", "lantern_forest", "metal_hall"}) {
+        const Scene scene = load_scene(file(std::string(name) + ".glb"));
+        const std::string text = text_of_file(file(std::string(name) + "_lights.csv"));
+        const auto lines = split(trim(text), '\n');
+        ASSERT_EQ(lines.size(), scene.lights.size() + 1) << name;
+        for (std::size_t i = 0; i < scene.lights.size(); i += 17) {
+            const auto words = split(trim(lines[i + 1]), ',');
+            ASSERT_EQ(words.size(), split(lines[0], ',').size()) << name;
+            const SceneLight& light = scene.lights[i];
+            EXPECT_EQ(number_of<double>(words[1]), light.position.x);
+            EXPECT_NEAR(number_of<float>(words[10]).value(), light.intensity.x,
+                        1e-6f * light.intensity.x);
+            EXPECT_EQ(number_of<float>(words[13]), light.range);
+        }
+    }
+}
+
+class ScoreRefusals : public testing::Test {
+ protected:
+    ScoreRefusals() { write("reference.exr", {4, 2}); }
+    std::string file(const std::string& name) { return (folder_ / name).string(); }
+    void write(const std::string& name, std::pair<int, int> size, float value = 1.0f) {
+        Frame frame;
+        frame.width = size.first;
+        frame.height = size.second;
+        frame.radiance.assign(static_cast<std::size_t>(3 * size.first * size.second), value);
+        frame.display.assign(static_cast<std::size_t>(4 * size.first * size.second), 9);
+        frame.radiance[0] = 1.0f;
+        write_image(file(name), frame);
+    }
+    void expect_refused(Words words, int code, const std::string& why) {
+        words.insert(words.begin(), "score");
+        const ChildResult result = run_kilolux(words);
+        EXPECT_EQ(result.code, code) << why;
+        EXPECT_EQ(result.out, "");
+        EXPECT_TRUE(contains(result.err, why)) << result.err;
+        EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+    }
+    TemporaryFolder folder_;
+};
+
+TEST_F(ScoreRefusals, PicturesThatCannotBeCompared) {
+    const Words by_file{"--reference", file("reference.exr")};
+    write("wide.exr", {5, 2});
+    expect_refused({file("wide.exr"), by_file[0], by_file[1]}, 1,
+                   "wide.exr: is 5x2 pixels, the reference ");
+    write("nan.exr", {4, 2}, std::numeric_limits<float>::quiet_NaN());
+    expect_refused({file("nan.exr"), by_file[0], by_file[1]}, 1,
+                   "nan.exr: 8 pixels are NaN or infinite, the first one at 0,0");
+    write("infinite.exr", {4, 2}, std::numeric_limits<float>::infinity());
+    expect_refused({file("reference.exr"), "--reference", file("infinite.exr")}, 1,
+                   "infinite.exr: 8 pixels are NaN or infinite");
+    write("display.png", {4, 2});
+    expect_refused({file("display.png"), by_file[0], by_file[1]}, 1,
+                   "display.png: holds display values; score needs linear ones, .exr or .hdr");
+    expect_refused({file("none.exr"), by_file[0], by_file[1]}, 1, "none.exr");
+    const std::vector<float> values(8, 1.0f);
+    ImageLayout grey{4, 2, {{"Y", SampleType::float32}}};
+    const auto* bytes = reinterpret_cast<const unsigned char*>(values.data());
+    write_atomically(file("grey.exr"),
+                     encode_pixels("grey.exr", "openexr", grey, {bytes, 4 * values.size()}, 4));
+    expect_refused({file("grey.exr"), by_file[0], by_file[1]}, 1,
+                   "grey.exr: has channels Y; score needs R, G and B");
+}
+
+// The frame is a part of a picture of 8x2 pixels; another one is in the primaries of ACES AP1.
+TEST_F(ScoreRefusals, PicturesOfOtherThings) {
+    Frame frame;
+    frame.width = 4;
+    frame.height = 2;
+    frame.radiance.assign(24, 1.0f);
+    ImageOptions options;
+    options.crop = PixelRect{2, 0, 4, 2};
+    options.full_width = 8;
+    options.full_height = 2;
+    write_image(file("part.exr"), frame, {}, options);
+    expect_refused({file("part.exr"), "--reference", file("reference.exr")}, 1,
+                   "part.exr: is 4x2 pixels of a picture of 8x2; score needs all of it");
+    ImageLayout layout{4, 2, {}};
+    for (const char* name : {"R", "G", "B"}) {
+        layout.channels.push_back({name, SampleType::float32});
+    }
+    layout.attributes.emplace_back(
+        "chromaticities",
+        std::vector<float>{0.713f, 0.293f, 0.165f, 0.83f, 0.128f, 0.044f, 0.32168f, 0.33767f});
+    const auto* bytes = reinterpret_cast<const unsigned char*>(frame.radiance.data());
+    write_atomically(file("aces.exr"),
+                     encode_pixels("aces.exr", "openexr", layout, {bytes, 4 * 24}, 12));
+    expect_refused({file("aces.exr"), "--reference", file("reference.exr")}, 1,
+                   "aces.exr: its primaries are 0.713 0.293 0.165 0.83 ");
+}
+
+TEST_F(ScoreRefusals, ReferencesWithoutLight) {
+    ASSERT_EQ(run_kilolux({"export", "plain", "-o", file("dark.glb"), "--resolution", "64,32",
+                           "--lights", "0", "--rig", "none", "-q"})
+                  .code,
+              0);
+    expect_refused({file("reference.exr"), "--scene", file("dark.glb"), "-q"}, 1,
+                   "dark.glb: has no lights; --lights N adds some");
+    Frame black;
+    black.width = 4;
+    black.height = 2;
+    black.radiance.assign(24, 0.0f);
+    write_image(file("black.exr"), black);
+    expect_refused({file("reference.exr"), "--reference", file("black.exr")}, 1,
+                   "the reference is black: ");
+}
+
+TEST_F(ScoreRefusals, CommandLinesThatCannotBeObeyed) {
+    const std::string picture = file("reference.exr");
+    expect_refused({picture}, 2, "needs one of --scene SCENE and --reference FILE");
+    expect_refused({picture, "--scene", "plain", "--reference", picture}, 2, "needs one of");
+    expect_refused({picture, "--reference", picture, "--inverse-square"}, 2,
+                   "--reference: is a picture, not a scene, so it does not go with --inverse");
+    expect_refused({picture, "--scene", "plain", "--resolution", "4,2"}, 2, "--resolution: ");
+    expect_refused({picture, "--scene", "plain", "--samples", "4"}, 2, "--samples: ");
+}
+
+// The camera of an exported scene has a shape.
+TEST_F(ScoreRefusals, APictureOfAnotherShape) {
+    const std::string scene = file("scene.glb");
+    ASSERT_EQ(run_kilolux({"export", "plain", "-o", scene, "--resolution", "64,36", "-q"}).code, 0);
+    write("square.exr", {40, 40});
+    expect_refused({file("square.exr"), "--scene", scene, "-q"}, 1,
+                   "square.exr: is 40x40 pixels; camera 0 of ");
+}
+
+TEST(ExportBenchmark, TakesNoOptionsOfAScene) {
+    const TemporaryFolder folder;
+    const std::string set = (folder / "set").string();
+    const ChildResult result = run_kilolux({"export", "--benchmark", set, "--lights", "5"});
+    EXPECT_EQ(result.code, 2);
+    EXPECT_TRUE(contains(result.err, "it does not go with --lights")) << result.err;
+    EXPECT_FALSE(fs::exists(set));
+}
+
+// A README.md of somebody else stays; a benchmark is made again in its folder.
+TEST(ExportBenchmark, NeedsAFolderOfItsOwn) {
+    const TemporaryFolder folder;
+    make_benchmark_folder(folder / "new");
+    EXPECT_TRUE(fs::is_directory(folder / "new"));
+    write_benchmark(folder / "new", {}, [] {});
+    make_benchmark_folder(folder / "new");
+    write_atomically(folder / "README.md", "mine");
+    const ChildResult result = run_kilolux({"export", "--benchmark", folder.path().string()});
+    EXPECT_EQ(result.code, 1);
+    EXPECT_TRUE(contains(result.err, "holds other things than a benchmark")) << result.err;
+    EXPECT_EQ(text_of_file(folder / "README.md"), "mine");
+}
+
+}  // namespace
+}  // namespace kilolux
