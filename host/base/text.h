@@ -38,6 +38,11 @@ inline std::string_view trim(std::string_view text) {
     return text.substr(first, text.find_last_not_of(kSpaces) - first + 1);
 }
 
+/// "5" of "+5".
+inline std::string_view without_plus(std::string_view text) {
+    return text.size() > 1 && text[0] == '+' && text[1] != '-' ? text.substr(1) : text;
+}
+
 /// The number that all of `text` is, without sign "+"; none for any other text.
 template <typename Number>
 std::optional<Number> number_of(std::string_view text, auto... base) {
@@ -46,6 +51,12 @@ std::optional<Number> number_of(std::string_view text, auto... base) {
         std::from_chars(text.data(), text.data() + text.size(), value, base...);
     const bool is_all = error == std::errc() && end == text.data() + text.size();
     return is_all ? std::optional(value) : std::nullopt;
+}
+
+/// The same with a sign "+", too: "+5" is 5.
+template <typename Number>
+std::optional<Number> signed_number_of(std::string_view text) {
+    return number_of<Number>(without_plus(text));
 }
 
 /// A word as a shell reads it back: in single quotes, unless it is a plain one.

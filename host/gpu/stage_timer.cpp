@@ -46,13 +46,21 @@ void StageTimer::record_host(std::string_view stage, double ms) {
     host_.push_back({std::string(stage), {end - static_cast<std::int64_t>(ms / kMsPerTick), end}});
 }
 
+void StageTimer::gather() {
+    for (Entry& entry : entries_) {
+        for (Recorded& recorded : entry.events) {
+            if (recorded.span) continue;
+            recorded.event.wait();
+            recorded.span = span_of(recorded.event);
+        }
+    }
+}
+
 std::vector<StageTimer::Time> StageTimer::take() {
     idle_ = {};
     build_ = first_launch_ = 0;
     if (entries_.empty() && host_.empty()) return {};
-    for (const Entry& entry : entries_) {
-        for (const Recorded& recorded : entry.events) recorded.event.wait();
-    }
+    gather();
     const Clock::time_point now = Clock::now();
     std::vector<Time> times;
     std::vector<CommandSpan> spans;
@@ -60,11 +68,11 @@ std::vector<StageTimer::Time> StageTimer::take() {
     std::int64_t offset = std::numeric_limits<std::int64_t>::max();
     for (const Entry& entry : entries_) {
         Time& time = times.emplace_back(Time{entry.stage});
-        for (const auto& [event, recorded] : entry.events) {
-            const CommandSpan span = span_of(event);
+        for (const Recorded& recorded : entry.events) {
+            const CommandSpan span = *recorded.span;
             spans.push_back(span);
             time.ms += kMsPerTick * static_cast<double>(span.end - span.start);
-            offset = std::min(offset, ticks(recorded.time_since_epoch()) - span.queued);
+            offset = std::min(offset, ticks(recorded.time.time_since_epoch()) - span.queued);
         }
     }
     if (entries_.empty()) offset = 0;

@@ -3,6 +3,7 @@
 
 #include <CL/opencl.hpp>
 #include <chrono>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +35,10 @@ class StageTimer {
         double ms = 0.0;
     };
 
+    /// Asks the driver for the times of all commands so far, which take() otherwise does. Blocks
+    /// until they are done, one after the other.
+    void gather();
+
     /// Times by stage, those of the host alone first, then in the order of first use; forgets the
     /// events. Blocks until they are done.
     std::vector<Time> take();
@@ -56,6 +61,7 @@ class StageTimer {
     struct Recorded {
         cl::Event event;
         Clock::time_point time;
+        std::optional<CommandSpan> span = {};  // by gather()
     };
     struct Entry {
         std::string stage;

@@ -2,12 +2,12 @@
 #include "host/interop/gbuffer_bridge.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstring>
 
+#include "host/base/system/parallel.h"
 #include "host/gpu/program.h"
 #include "raster/gl_debug.h"
 
@@ -70,7 +70,7 @@ void GBufferBridge::upload(const PlaneCopy& copy) {
     constexpr std::size_t kPiece = std::size_t{1} << 20;  // [byte]
     const auto* from = static_cast<const std::byte*>(staging_->mapping) + copy.offset;
     std::byte* to = staging_->pinned.reserve(staging_->bytes) + copy.offset;
-    tbb::parallel_for(std::size_t{0}, (copy.bytes + kPiece - 1) / kPiece, [&](std::size_t i) {
+    parallel_for(std::size_t{0}, (copy.bytes + kPiece - 1) / kPiece, [&](std::size_t i) {
         const std::size_t first = i * kPiece;
         std::memcpy(to + first, from + first, std::min(kPiece, copy.bytes - first));
     });

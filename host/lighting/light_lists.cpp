@@ -88,7 +88,7 @@ template <typename Make>
 ListedLights LightLists::kept_or_made(const ListSource& source, const Make& make) {
     if (is_made_of(source)) return *made_;
     made_.reset();  // arrays that grow must not be held twice
-    is_checked_ = false;
+    is_checked_ = is_counting_ = false;
     if (needs_room_) grow();
     made_ = make();
     made_->version = ++version_;
@@ -96,13 +96,18 @@ ListedLights LightLists::kept_or_made(const ListSource& source, const Make& make
     return *made_;
 }
 
+void LightLists::start_count(StageTimer& timer) {
+    if (is_checked_ || std::exchange(is_counting_, true)) return;
+    count_.enqueue({made_->coarse.total, bin_.total(), refine_.total()}, made_->clusters,
+                   !shares_coarse_, timer);
+}
+
 bool LightLists::fits(StageTimer& timer) {
     if (is_checked_) {
         gpu_.queue.finish();
         return true;
     }
-    count_.enqueue({made_->coarse.total, bin_.total(), refine_.total()}, made_->clusters,
-                   !shares_coarse_, timer);
+    start_count(timer);
     counts_ = count_.read();
     is_checked_ = is_complete(*made_);
     if (is_checked_) {

@@ -87,8 +87,12 @@ class LightLists {
     /// while they grow.
     void forget();
 
+    /// Enqueues the counting that fits() waits for: what is enqueued in between keeps the device
+    /// busy meanwhile. Without it fits() does so itself.
+    void start_count(StageTimer& timer);
+
     /// False where the last enqueue()'s lists had no room; the next one makes it. Waits for the
-    /// device: asked once a frame, when the caller has nothing more to enqueue.
+    /// counts: asked once a frame.
     bool fits(StageTimer& timer);
 
     /// Repeats both until the lists are complete; the timer gets the stages of the last time.
@@ -143,7 +147,8 @@ class LightLists {
     std::uint64_t version_ = 0;
     ListSource made_of_;
     std::optional<ListedLights> made_;
-    bool is_checked_ = false;  // made_ is complete
+    bool is_checked_ = false;   // made_ is complete
+    bool is_counting_ = false;  // since start_count()
 };
 
 }  // namespace kilolux

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/picture/frame_reader.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstring>
 
+#include "host/base/system/parallel.h"
 #include "host/picture/frame.h"
 
 namespace kilolux {
@@ -15,7 +14,7 @@ namespace {
 // All cores copy rows: memory that is written for the first time is slow on one.
 
 void put_display(const std::byte* codes, const View& view, uint* pixels, std::size_t stride) {
-    tbb::parallel_for(std::size_t{0}, std::size_t{view.height}, [&](std::size_t y) {
+    parallel_for(std::size_t{0}, std::size_t{view.height}, [&](std::size_t y) {
         std::memcpy(pixels + y * stride, codes + sizeof(uint) * y * view.stride,
                     sizeof(uint) * view.width);
     });
@@ -25,7 +24,7 @@ void put_light(const std::byte* light, const View& view, std::vector<float>& rgb
     const auto* planes = reinterpret_cast<const float*>(light);
     const std::size_t plane = std::size_t{view.stride} * view.height;
     float* first = &rgb[std::size_t{3} * view.width * view.first_row];
-    tbb::parallel_for(std::size_t{0}, std::size_t{view.height}, [&](std::size_t y) {
+    parallel_for(std::size_t{0}, std::size_t{view.height}, [&](std::size_t y) {
         const float* row = planes + y * view.stride;
         float* out = first + 3 * y * view.width;
         for (std::size_t x = 0; x < view.width; ++x) {

@@ -165,9 +165,10 @@ void render_band(Pipeline& p, const Shot& shot, const LightInput& lights, const 
             stages.shade(sample, lit, out);
             p.environment.enqueue(lit, p.timer);
             stages.blend(lit, p.environment, out);
+            stages.count(out);
             is_finished = p.samples.is_one() && stages.expects_no_more_layers();
             if (is_finished) finish_picture(p, lit, frame);
-            room = stages.room(lit, out);  // waits for the device
+            room = stages.room(lit, out);  // meanwhile the device copies it
             if (room.surfaces) before = with_surfaces;
         }
         p.reader.count({lit, stages, sample.camera}, out.stats);

@@ -85,6 +85,11 @@ void FrameStages::shade(const Sample& sample, LitBand& band, Measured out) {
     }
 }
 
+void FrameStages::count(Measured out) {
+    if (lists_) lists_->start_count(out.timer);
+    if (surfaces_ && !forward_) surfaces_->start_count(out.timer);
+}
+
 Room FrameStages::room(const LitBand& band, Measured out) {
     Room out_room;
     out_room.lists = lists_ ? lists_->fits(out.timer) : has_coarse_;

@@ -43,8 +43,11 @@ class FrameStages {
     /// Radiance, or with sample.display the display picture.
     void shade(const Sample& sample, LitBand& band, Measured out);
 
-    /// Which of the last calls had room; the others must run again, and then have it. Waits for the
-    /// device where stages count what they need. Sets the counts of lists.
+    /// Enqueues the counting that room() waits for.
+    void count(Measured out);
+
+    /// Which of the last calls had room; the others must run again, and then have it. Waits for
+    /// their counts. Sets the counts of lists.
     Room room(const LitBand& band, Measured out);
 
     /// The surfaces that blend, as layers over the others.

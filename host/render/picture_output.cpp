@@ -152,6 +152,7 @@ void PictureOutput::read_display(const DisplayTarget& display, StageTimer& timer
 }
 
 void PictureOutput::finish(StageTimer& timer, FrameStats& stats) {
+    timer.gather();  // while the device copies the picture
     const double placed_ms = reader_.finish();
     if (placed_ms > 0.0) timer.record_host(kReadBackStage, placed_ms);
     add_times(context_.gpu, timer, stats);

@@ -77,6 +77,7 @@ void Pipeline::take(const RenderSettings& next) {
     lights.set_generated(next.lights);
     lights.set_tails(next);
     lights.set_groups(next.light_groups);
+    lights.set_mix(next.light_mix);
 }
 
 void Pipeline::change(std::unique_ptr<Pipeline>& pipeline,

@@ -4,11 +4,11 @@
 #include <map>
 #include <memory>
 
-#include "host/render/band_reader.h"
 #include "host/render/environment_light.h"
 #include "host/render/frame_stages.h"
 #include "host/render/lights/light_source.h"
 #include "host/render/picture_output.h"
+#include "host/render/read/band_reader.h"
 #include "host/render/render_context.h"
 #include "host/render/samples.h"
 

@@ -9,7 +9,7 @@
 #include "host/picture/frame_request.h"
 #include "host/scene/lights/environment.h"
 #include "host/scene/lights/light_generator.h"
-#include "host/scene/lights/light_groups.h"
+#include "host/scene/lights/light_mix.h"
 #include "host/scene/lights/light_ranges.h"
 #include "host/scene/lights/prefiltered_environment.h"
 #include "kernels/shared/evaluate_modes.h"
@@ -127,6 +127,7 @@ struct RenderSettings {
     FrameRequest want;  // what render() brings to the host
     // Frame::aovs ends with a layer for each, named kLightLayers + name, and one for the rest.
     std::vector<LightGroup> light_groups;
+    GroupMix light_mix;  // its groups need no layers
     GridSettings grid;
     KernelSettings kernels;
     std::vector<std::string>

@@ -30,8 +30,13 @@ class SurfacePass {
     /// triangles may be missing: see fits().
     GBuffer enqueue(const Sample& sample, Measured out);
 
+    /// Starts to copy what fits() waits for, so that the device works on meanwhile. Enqueues only.
+    void start_count(StageTimer& timer) {
+        if (!is_checked_) triangles_->start_count(timer);
+    }
+
     /// False where the last enqueue() lacks triangles, since their lists had no room; the next call
-    /// has it. Waits for the device, so it is called when the caller has nothing more to enqueue.
+    /// has it. Waits for the device.
     bool fits(FrameStats& stats);
 
     /// Repeats enqueue() until fits().

@@ -7,6 +7,7 @@
 
 #include "host/base/log.h"
 #include "host/base/system/memory.h"
+#include "host/base/system/parallel.h"
 #include "host/scene/gltf/animation.h"
 #include "host/scene/gltf/choices.h"
 #include "host/scene/gltf/light_profiles.h"
@@ -14,7 +15,6 @@
 #include "host/scene/gltf/material/image.h"
 #include "host/scene/gltf/material/specular_glossiness.h"
 #include "host/scene/gltf/nodes.h"
-#include "host/scene/gltf/parallel.h"
 #include "host/scene/gltf/shapes.h"
 
 namespace kilolux {

@@ -5,12 +5,18 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 #include "host/base/error.h"
 #include "host/base/point_pair.h"
+#include "host/base/system/parallel.h"
 
 namespace kilolux {
 namespace {
+
+// A thread finds out whether so many are seen in some 10 us.
+constexpr std::size_t kInstancesAtOnce = 32;
 
 constexpr double kUnit = 1e-6;  // deviation from unit length that counts as rounding
 
@@ -72,13 +78,28 @@ InstanceRow row_of(const glm::dmat4& m, double determinant) {
     return out;
 }
 
+std::size_t triangles_of(const Scene& scene, int mesh) {
+    return scene.meshes[static_cast<std::size_t>(mesh)].indices.size() / 3;
+}
+
+// Numbers casters, the triangles of all instances, along the instances: before draws are sorted.
+void number_casters(std::vector<Draw>& draws, const Scene& scene) {
+    std::size_t first = 0, next = 0;  // the next instance, and its first triangle
+    for (Draw& draw : draws) {
+        while (next < static_cast<std::size_t>(draw.instance)) {
+            first += triangles_of(scene, scene.instances[next++].mesh);
+        }
+        draw.row.first_caster = static_cast<uint>(first);
+    }
+}
+
 // Ids ascend along the draws.
 void number_triangles(std::vector<Draw>& draws, const Scene& scene) {
     std::uint64_t first = 0;
     for (Draw& draw : draws) {
         draw.row.first_triangle = static_cast<uint>(first);
         draw.row.mesh = static_cast<uint>(draw.mesh);
-        first += scene.meshes[static_cast<std::size_t>(draw.mesh)].indices.size() / 3;
+        first += triangles_of(scene, draw.mesh);
         if (first >= std::numeric_limits<uint>::max()) {
             throw Error("scene '" + scene.name +
                         "': more than 4294967294 triangles are in view, which ids cannot name");
@@ -86,40 +107,57 @@ void number_triangles(std::vector<Draw>& draws, const Scene& scene) {
     }
 }
 
-std::array<glm::dvec4, 8> corners_of(const Box& box, const glm::dmat4& view_from_box) {
-    std::array<glm::dvec4, 8> corners;
+// The transform to a system in the camera's place, with the world's axes.
+glm::dmat4 from_camera(const Camera& camera, glm::dmat4 world_from_object) {
+    world_from_object[3] -= glm::dvec4(camera.position, 0.0);
+    return world_from_object;
+}
+
+glm::dmat4 view_axes(const Camera& camera) {
+    return glm::dmat4(glm::transpose(camera.world_from_view));
+}
+
+using Corners = std::array<glm::dvec4, 8>;
+
+Corners corners_of(const Box& box, const glm::dmat4& view_from_box) {
+    Corners corners;
     for (std::size_t i = 0; i < 8; ++i) {
         corners[i] = view_from_box * glm::dvec4(box.corner(i), 1.0);
     }
     return corners;
 }
 
-// Whether all corners lie outside one plane of the frustum, by more than what float32 vertices and
-// the rasteriser's snapping can move them.
-bool outside(const std::array<glm::dvec4, 8>& corners, const glm::dmat4& clip) {
-    constexpr double kSlack = 1e-4;
-    std::array<int, 6> count{};
-    for (const glm::dvec4& corner : corners) {
-        const glm::dvec4 c = clip * corner;
-        const double slack =
-            kSlack * (std::abs(c.x) + std::abs(c.y) + std::abs(c.z) + std::abs(c.w));
-        const std::array<double, 6> inside = {c.w - c.x, c.w + c.x, c.w - c.y,
-                                              c.w + c.y, c.w - c.z, c.z};
-        for (std::size_t plane = 0; plane < 6; ++plane) {
-            if (inside[plane] < -slack) ++count[plane];
-        }
-    }
-    return std::find(count.begin(), count.end(), 8) != count.end();
+Corners clipped(Corners corners, const glm::dmat4& clip_from_view) {
+    for (glm::dvec4& corner : corners) corner = clip_from_view * corner;
+    return corners;
 }
 
-// Where the box of the corners may be seen.
-ScreenBox screen_box(const std::array<glm::dvec4, 8>& corners, const glm::dmat4& clip,
-                     const glm::dvec2& size) {
+// Whether all corners, in clip space, lie outside one plane of the frustum, by more than what
+// float32 vertices and the rasteriser's snapping can move them. Without branches, which no
+// processor foresees here.
+bool outside(const Corners& corners) {
+    constexpr double kSlack = 1e-4;
+    unsigned planes = 0x3f;  // a bit for each that all corners so far are outside of
+    for (const glm::dvec4& c : corners) {
+        const double slack =
+            -kSlack * (std::abs(c.x) + std::abs(c.y) + std::abs(c.z) + std::abs(c.w));
+        const std::array<double, 6> inside = {c.w - c.x, c.w + c.x, c.w - c.y,
+                                              c.w + c.y, c.w - c.z, c.z};
+        unsigned outside_of = 0;
+        for (unsigned plane = 0; plane < 6; ++plane) {
+            outside_of |= static_cast<unsigned>(inside[plane] < slack) << plane;
+        }
+        planes &= outside_of;
+    }
+    return planes != 0;
+}
+
+// Where the box of the corners, in clip space, may be seen.
+ScreenBox screen_box(const Corners& corners, const glm::dvec2& size) {
     constexpr double kMargin = 2.0;  // [pixel] as in outside(), and more
     ScreenBox out;
     std::swap(out.least, out.most);
-    for (const glm::dvec4& corner : corners) {
-        const glm::dvec4 c = clip * corner;
+    for (const glm::dvec4& c : corners) {
         if (!(c.w > kUnit * (std::abs(c.x) + std::abs(c.y)))) return {};
         const glm::dvec2 pixel = (glm::dvec2(c.x, -c.y) / c.w * 0.5 + 0.5) * size;
         out.least = glm::min(out.least, pixel - kMargin);
@@ -134,20 +172,38 @@ Box box_of_vertices(const Mesh& mesh) {
     return box;
 }
 
+// Sorts their places first: draws are large.
 void sort_draws(std::vector<Draw>& draws, DrawOrder order) {
     if (order == DrawOrder::scene) return;
-    std::stable_sort(draws.begin(), draws.end(), [&](const Draw& a, const Draw& b) {
-        return order == DrawOrder::front_to_back ? a.depth < b.depth : a.depth > b.depth;
+    std::vector<std::size_t> places(draws.size());
+    std::iota(places.begin(), places.end(), std::size_t{0});
+    std::ranges::stable_sort(places, [&](std::size_t a, std::size_t b) {
+        const bool forwards = order == DrawOrder::front_to_back;
+        return forwards ? draws[a].depth < draws[b].depth : draws[a].depth > draws[b].depth;
     });
+    std::vector<Draw> sorted;
+    sorted.reserve(draws.size());
+    for (const std::size_t place : places) sorted.push_back(draws[place]);
+    draws = std::move(sorted);
 }
 
 }  // namespace
 
+// What visible() is asked for.
+struct DrawList::DrawRequest {
+    const Camera& camera;
+    glm::dmat4 view_from_camera;  // turns the axes
+    glm::dmat4 clip_from_view;
+    glm::dvec2 size;  // of the picture [pixel]
+    bool blended;
+    DrawOrder order;
+    const OpenTiles* open;
+};
+
 uint drawn_triangles(std::span<const Draw> draws, const Scene& scene) {
     if (draws.empty()) return 0;
     const Draw& last = draws.back();
-    return last.row.first_triangle +
-           static_cast<uint>(scene.meshes[static_cast<std::size_t>(last.mesh)].indices.size() / 3);
+    return last.row.first_triangle + static_cast<uint>(triangles_of(scene, last.mesh));
 }
 
 DrawList::DrawList(const Scene& scene) : scene_(scene) {
@@ -159,53 +215,69 @@ DrawList::DrawList(const Scene& scene) : scene_(scene) {
     }
 }
 
-const DrawList::MeshBox& DrawList::box_of(int index) const {
-    const Mesh& mesh = scene_.meshes[static_cast<std::size_t>(index)];
-    MeshBox& out = boxes_[static_cast<std::size_t>(index)];
-    if (out.revision != mesh.revision) {
-        out.box = box_of_vertices(mesh);
-        out.revision = mesh.revision;
+void DrawList::refresh_boxes() const {
+    for (std::size_t i = 0; i < boxes_.size(); ++i) {
+        if (boxes_[i].revision == scene_.meshes[i].revision) continue;
+        boxes_[i].box = box_of_vertices(scene_.meshes[i]);
+        boxes_[i].revision = scene_.meshes[i].revision;
     }
-    return out;
+}
+
+// The draw of an instance, if the camera may see it; its ids are numbered later.
+std::optional<Draw> DrawList::draw_of(std::size_t number, const DrawRequest& request) const {
+    const Instance& instance = scene_.instances[number];
+    const MeshBox& mesh = boxes_[static_cast<std::size_t>(instance.mesh)];
+    if (mesh.blended != request.blended || mesh.box.empty()) return {};
+    const glm::dmat4 transform =
+        request.view_from_camera * from_camera(request.camera, instance.world_from_object);
+    const Corners corners = corners_of(mesh.box, transform);
+    const Corners clip_corners = clipped(corners, request.clip_from_view);
+    if (outside(clip_corners)) return {};
+    // Opaque draws need it only to skip closed tiles.
+    const ScreenBox screen = request.blended || request.open != nullptr
+                                 ? screen_box(clip_corners, request.size)
+                                 : ScreenBox();
+    if (request.open != nullptr && !request.open->touches(screen.least, screen.most)) return {};
+    double nearest = std::numeric_limits<double>::infinity();
+    double sum = 0.0;
+    for (const glm::dvec4& corner : corners) {
+        nearest = std::min(nearest, -corner.z);
+        sum -= corner.z;
+    }
+    if (request.order == DrawOrder::back_to_front) nearest = sum / 8.0;
+    const double determinant = glm::determinant(glm::dmat3(transform));
+    return Draw{static_cast<int>(number), instance.mesh, nearest,
+                determinant < 0.0,        screen,        row_of(transform, determinant)};
 }
 
 std::vector<Draw> DrawList::visible(const Camera& camera, int width, int height, bool blended,
                                     DrawOrder order, const OpenTiles* open) const {
-    const glm::dmat4 clip = clip_from_view(camera, width, height);
-    std::vector<Draw> draws;
-    std::size_t casters = 0;  // triangles of earlier instances
-    for (std::size_t i = 0; i < scene_.instances.size(); ++i) {
-        const Instance& instance = scene_.instances[i];
-        const MeshBox& mesh = box_of(instance.mesh);
-        const std::size_t first_caster = casters;
-        casters += scene_.meshes[static_cast<std::size_t>(instance.mesh)].indices.size() / 3;
-        if (mesh.blended != blended || mesh.box.empty()) continue;
-        const glm::dmat4 transform = view_from_object(camera, instance.world_from_object);
-        const std::array<glm::dvec4, 8> corners = corners_of(mesh.box, transform);
-        if (outside(corners, clip)) continue;
-        const ScreenBox screen = screen_box(corners, clip, {width, height});
-        if (open != nullptr && !open->touches(screen.least, screen.most)) continue;
-        double nearest = std::numeric_limits<double>::infinity();
-        double sum = 0.0;
-        for (const glm::dvec4& corner : corners) {
-            nearest = std::min(nearest, -corner.z);
-            sum -= corner.z;
+    refresh_boxes();
+    const DrawRequest request{camera,
+                              view_axes(camera),
+                              clip_from_view(camera, width, height),
+                              {width, height},
+                              blended,
+                              order,
+                              open};
+    const std::size_t count = scene_.instances.size();
+    std::vector<std::vector<Draw>> parts((count + kInstancesAtOnce - 1) / kInstancesAtOnce);
+    parallel_for(std::size_t{0}, parts.size(), [&](std::size_t part) {
+        const std::size_t begin = part * kInstancesAtOnce;
+        for (std::size_t i = begin; i < std::min(begin + kInstancesAtOnce, count); ++i) {
+            if (auto draw = draw_of(i, request)) parts[part].push_back(*draw);
         }
-        if (order == DrawOrder::back_to_front) nearest = sum / 8.0;
-        const double determinant = glm::determinant(glm::dmat3(transform));
-        draws.push_back({static_cast<int>(i), instance.mesh, nearest, determinant < 0.0, screen,
-                         row_of(transform, determinant)});
-        draws.back().row.first_caster = static_cast<uint>(first_caster);
-    }
+    });
+    std::vector<Draw> draws;
+    for (const std::vector<Draw>& part : parts) draws.insert(draws.end(), part.begin(), part.end());
+    number_casters(draws, scene_);
     sort_draws(draws, order);
     number_triangles(draws, scene_);
     return draws;
 }
 
 glm::dmat4 view_from_object(const Camera& camera, const glm::dmat4& world_from_object) {
-    glm::dmat4 relative = world_from_object;
-    relative[3] -= glm::dvec4(camera.position, 0.0);
-    return glm::dmat4(glm::transpose(camera.world_from_view)) * relative;
+    return view_axes(camera) * from_camera(camera, world_from_object);
 }
 
 }  // namespace kilolux

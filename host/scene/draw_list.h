@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,8 +25,10 @@ struct Draw {
     int mesh = 0;
     double depth = 0.0;     // sort key: least depth of its box [m], or its centre's (back to front)
     bool mirrored = false;  // negative determinant: front faces wind the other way
-    ScreenBox screen;       // holds its pixels; everything where its box reaches behind the camera
-    InstanceRow row{};      // composed in double; its ids are numbered along the draws
+    // Contains its pixels. Unbounded if its box reaches behind the camera, and for opaque draws
+    // when all tiles are drawn.
+    ScreenBox screen;
+    InstanceRow row{};  // composed in double; its ids are numbered along the draws
 };
 
 enum class DrawOrder { front_to_back, back_to_front, scene };
@@ -51,7 +54,9 @@ class DrawList {
         bool blended = false;
         std::uint32_t revision = 0;  // of the mesh when the box was taken
     };
-    const MeshBox& box_of(int mesh) const;
+    struct DrawRequest;
+    void refresh_boxes() const;
+    std::optional<Draw> draw_of(std::size_t number, const DrawRequest& request) const;
 
     const Scene& scene_;
     mutable std::vector<MeshBox> boxes_;  // by mesh; follow their revisions

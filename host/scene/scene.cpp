@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/scene.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
+#include "host/base/system/parallel.h"
 
 namespace kilolux {
 namespace {
@@ -69,15 +67,11 @@ glm::dvec3 placed(const glm::vec3& position, const glm::dmat4& world_from_object
 }
 
 Box bounds(const Positions& positions, const glm::dmat4& world_from_object) {
-    using Range = tbb::blocked_range<std::size_t>;
-    const auto add = [&](const Range& range, Box box) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            box.add(placed(positions[i], world_from_object));
-        }
+    const auto add = [&](std::size_t i, Box box) {
+        box.add(placed(positions[i], world_from_object));
         return box;
     };
-    return tbb::parallel_reduce(Range(0, positions.size(), kVerticesAtOnce), Box{}, add,
-                                joined_boxes);
+    return parallel_reduce(positions.size(), Box{}, add, joined_boxes, kVerticesAtOnce);
 }
 
 // A bit for each side of the box that the point touches.
@@ -93,14 +87,12 @@ unsigned sides_at(const Box& box, const glm::dvec3& p) {
 // Whether triangles with an area touch all sides of the box of a mesh's vertices.
 bool is_box_of_triangles(const Mesh& mesh, const glm::dmat4& world_from_object, const Box& box) {
     constexpr unsigned kAll = 63;
-    using Range = tbb::blocked_range<std::size_t>;
     std::vector<std::uint8_t> sides(mesh.positions.size());
-    tbb::parallel_for(Range(0, sides.size(), kVerticesAtOnce), [&](const Range& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            const glm::dvec3 p = placed(mesh.positions[i], world_from_object);
-            sides[i] = static_cast<std::uint8_t>(sides_at(box, p));
-        }
-    });
+    const auto find_sides = [&](std::size_t i) {
+        const glm::dvec3 p = placed(mesh.positions[i], world_from_object);
+        sides[i] = static_cast<std::uint8_t>(sides_at(box, p));
+    };
+    parallel_for(std::size_t{0}, sides.size(), find_sides, kVerticesAtOnce);
     unsigned touched = 0;
     for (std::size_t i = 0; i < mesh.indices.size() && touched != kAll; ++i) {
         const unsigned more = sides[mesh.indices[i]] & ~touched;
@@ -117,7 +109,7 @@ class InstanceBoxes {
           boxes_(scene.instances.size()),
           exact_(boxes_.size(), 0),
           corners_(scene.meshes.size()) {
-        tbb::parallel_for(std::size_t{0}, boxes_.size(), [&](std::size_t i) {
+        parallel_for(std::size_t{0}, boxes_.size(), [&](std::size_t i) {
             const Instance& instance = scene_.instances[i];
             if (is_hidden(instance)) return;
             boxes_[i] = bounds(mesh_of(i).positions, instance.world_from_object);

@@ -2,6 +2,7 @@
 #include "host/surfaces/surface_scene.h"
 
 #include <limits>
+#include <utility>
 
 #include "host/base/formats/mips.h"
 #include "host/scene/rows/mip_levels.h"
@@ -106,10 +107,15 @@ SurfaceBuffers SurfaceScene::at(std::span<const Draw> draws) {
     if (drawn_.read()) drawn_.read.wait();
     drawn_.rows.clear();
     for (const Draw& draw : draws) drawn_.rows.push_back(draw.row);
-    drawn_.blocks = instance_blocks(drawn_.rows, drawn_triangles(draws, scene_));
+    std::vector<uint> blocks = instance_blocks(drawn_.rows, drawn_triangles(draws, scene_));
     drawn_.rows.emplace_back().first_triangle = std::numeric_limits<uint>::max();
     drawn_.read = start_upload(gpu_, instances_.reserve(drawn_.rows.size()), drawn_.rows);
-    drawn_.read = start_upload(gpu_, blocks_.reserve(drawn_.blocks.size()), drawn_.blocks);
+    // The camera moves rows, and seldom changes which instances there are.
+    if (blocks != drawn_.blocks) {
+        const DeviceArray<uint> room = blocks_.reserve(blocks.size());
+        drawn_.blocks = std::move(blocks);
+        drawn_.read = start_upload(gpu_, room, drawn_.blocks);
+    }
     return {instances_.get(), blocks_.get(),    meshes_.get(),   vertices_.get(),
             indices_.get(),   materials_.get(), textures_.get(), texels_.get()};
 }

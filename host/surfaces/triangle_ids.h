@@ -29,6 +29,9 @@ class TriangleIds {
     DeviceArray<uint> enqueue(const SurfaceBuffers& scene, std::span<const Draw> draws,
                               const View& view, StageTimer& timer, const OpenTiles* open = nullptr);
 
+    /// Starts to copy what fits() waits for, so that the device works on meanwhile. Enqueues only.
+    void start_count(StageTimer& timer) { bin_.start_count(timer); }
+
     /// False where the last enqueue()'s ids lack triangles, as there was no room to list them; the
     /// next call has it. Blocks. Throws Error as BinTriangles::fits().
     bool fits();

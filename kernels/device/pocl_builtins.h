@@ -115,6 +115,7 @@ POCL_EACH_SIZE(POCL_HALVES, float)
 #define POCL_ATOMIC_IN(SPACE, T)                        \
     T POCL_OVERLOADED atomic_add(volatile SPACE T*, T); \
     T POCL_OVERLOADED atomic_inc(volatile SPACE T*);    \
+    T POCL_OVERLOADED atomic_dec(volatile SPACE T*);    \
     T POCL_OVERLOADED atomic_and(volatile SPACE T*, T); \
     T POCL_OVERLOADED atomic_or(volatile SPACE T*, T);  \
     T POCL_OVERLOADED atomic_min(volatile SPACE T*, T); \

@@ -20,4 +20,16 @@ static inline ulong scan_group(ulong value, local ulong* shared_sums) {
     return shared_sums[item] - value;
 #endif
 }
+
+// Sum of one value a work-item. `shared_sums`, [GROUP]: free for other use afterwards.
+static inline ulong sum_group(ulong value, local ulong* shared_sums) {
+#if GROUP == 1
+    return value;
+#else
+    scan_group(value, shared_sums);
+    ulong sum = shared_sums[GROUP - 1];
+    barrier(CLK_LOCAL_MEM_FENCE);  // all have read before any writes
+    return sum;
+#endif
+}
 #endif

@@ -121,7 +121,8 @@ kernel void drift_lights(global const LightSwarm* restrict swarm, uint count,
     DriftBox box = swarm->boxes[d.high.w];
     DriftPlace p = place_at(d, box, time);
     WorldLight row;
-    row.light = point_light_rows((float4)(p.x.x, p.y.x, p.z.x, box.min.w), drift_intensity(d));
+    row.light =
+        point_light_rows((float4)(p.x.x, p.y.x, p.z.x, box.min.w), drift_intensity(swarm, d));
     row.position_low = (float4)(p.x.y, p.y.y, p.z.y, 0.0f);
     world[first + i] = row;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exclusive prefix sum of uint counts. A work-group sums a block: one block takes one launch
-// (prefix_sum_one_block), more take three:
+// Exclusive prefix sum of uint counts. A work-group sums a block. Few blocks take one launch:
+//   prefix_sum_few      each work-group also sums all blocks before its own
+// more take three:
 //   prefix_sum_blocks   each work-item sums its PER_ITEM neighbours, each work-group its block
 //   prefix_sum_totals   one work-item scans the blocks' sums, in 64 bits
 //   prefix_sum_apply    each work-item writes its neighbours' offsets
@@ -31,17 +32,29 @@ static inline void write_offsets(global const uint* counts, uint n, uint first, 
     }
 }
 
-kernel void prefix_sum_one_block(
-    global const uint* restrict counts,  // [n], n <= GROUP * PER_ITEM
-    uint n,
-    global uint* restrict offsets,   // out [n + 1]; offsets[n] = total, modulo 2^32
-    global ulong* restrict total) {  // out [1]: the exact total
+// Sum over the blocks before the work-group's. Neighbouring items load neighbouring counts.
+static inline ulong sum_before(global const uint* counts, local ulong* shared_sums) {
+    uint loads = (uint)get_group_id(0) * PER_ITEM;
+    global const uint* place = counts + get_local_id(0);
+    ulong sum = 0;
+    // Loads that do not wait for each other: memory's latency decides.
+#pragma unroll 8
+    for (uint i = 0; i < loads; ++i) sum += place[(size_t)i * GROUP];
+    return sum_group(sum, shared_sums);
+}
+
+kernel void prefix_sum_few(global const uint* restrict counts,  // [n]
+                           uint n,
+                           global uint* restrict offsets,   // out [n + 1]; offsets[n] = total,
+                                                            // modulo 2^32
+                           global ulong* restrict total) {  // out [1]: the exact total
     local ulong shared_sums[GROUP];
-    uint first = (uint)get_local_id(0) * PER_ITEM;
+    ulong blocks = sum_before(counts, shared_sums);
+    uint first = (uint)get_global_id(0) * PER_ITEM;
     ulong sum = sum_of_item(counts, n, first);
-    ulong before = scan_group(sum, shared_sums);
+    ulong before = blocks + scan_group(sum, shared_sums);
     write_offsets(counts, n, first, (uint)before, offsets);
-    if (get_local_id(0) == GROUP - 1) {
+    if (get_global_id(0) == get_global_size(0) - 1) {
         offsets[n] = (uint)(before + sum);
         *total = before + sum;
     }

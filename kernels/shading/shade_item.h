@@ -55,9 +55,11 @@ static inline void shade_item(GBuffer g, LightSource from, LightSet set, ShadeOu
     set.candidates.tile = tile_key(view, out.samples.seed, at.x, at.y);
 #endif
 #if LIGHT_GROUPS
-    LightSum groups[1 + LIGHT_GROUPS];
-    for (uint i = 0u; i <= LIGHT_GROUPS; ++i) groups[i] = zero_sum();
+    FV3 groups[1 + LIGHT_GROUPS];
+    for (uint i = 1u; i <= LIGHT_GROUPS; ++i) groups[i] = zero3();
     set.groups = groups;
+    set.surface = &s;
+    set.point = &p;
 #endif
     LightSum sum = source_sum(from, g, at, item, wanted, p, set);
 #if SAMPLED_SHADOWS
@@ -72,9 +74,9 @@ static inline void shade_item(GBuffer g, LightSource from, LightSet set, ShadeOu
     for (uint i = 1u; i <= LIGHT_GROUPS; ++i) {
 #if SAMPLED_SHADOWS
         FV3 whole = load_radiance(out.samples.whole + group_planes(view, i), view, item.pixels);
-        FV3 lit = without_hidden(set.pick, whole, groups[i]);
+        FV3 lit = sub3(whole, groups[i]);
 #else
-        FV3 lit = reflected_radiance(s, p, groups[i]);
+        FV3 lit = groups[i];
 #endif
         store_group_light(out.to, view, i, item.pixels, select3(item.shown, lit, zero3()));
     }

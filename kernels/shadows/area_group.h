@@ -70,8 +70,8 @@ static inline uint make_rays(ClusterCast cast, AreaPixels from, ShadowLight ligh
         rays->targets[i] = (float4)(e.x, e.y, e.z, 0.0f);
         rays->lit[i] = lane_count(lit);
         if (!lane_any(lit)) continue;
-        grow_box(&walk->box, p);
-        grow_box(&rays->targets_box, e);
+        grow_box(&walk->box, (LaneBox){p, p});
+        grow_box(&rays->targets_box, (LaneBox){e, e});
         walk->lit = 1u;
         ++lit_count;
     }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // cast_shadows by a work-group for every SPLIT-th light of a tile: the items test the children of
-// GROUP / SHADOW_WIDTH nodes at a time, an item a child; then triangles, an item each; then points,
-// an item a few. For GPUs; one pixel a lane. The order in which items find triangles does not
-// change the result.
+// GROUP / SHADOW_WIDTH nodes at a time, an item a child; then triangles, an item each; then those
+// of the points that face the light, an item a few. For GPUs; one pixel a lane. The order in which
+// items find triangles does not change the result.
 #define ORDERED_PIXELS 1
 #define SHADOW_POINTS (FINE_TILE_PIXELS / GROUP)
 #include "kernels/shadows/area_group.h"
@@ -22,16 +22,6 @@ static inline void load_points_of_item(View view, global const float* origins, u
         Pixels pixels = pixels_of_tile(view, tile, place, order);
         load_origins(points, k, origins, view.stride * view.height, pixels);
     }
-}
-
-// The box of the cluster's points.
-static inline void find_box(const ShadowPoints* points, local GroupWalk* walk) {
-    barrier(CLK_LOCAL_MEM_FENCE);  // the last cluster's is used up
-    empty_box(&walk->box);
-    barrier(CLK_LOCAL_MEM_FENCE);  // empty before it grows
-#pragma unroll
-    for (uint k = 0; k < SHADOW_POINTS; ++k) grow_box(&walk->box, load_points(points, k));
-    barrier(CLK_LOCAL_MEM_FENCE);  // complete
 }
 
 static inline float4 float4_of(ShadowForm form) {
@@ -194,17 +184,12 @@ static inline void store_words(uint first, uint end, local GroupWalk* walk, glob
     }
 }
 
-// One light's bits of one cluster, whose box is found.
-static inline void cast_light(ClusterCast cast, uint j, local GroupWalk* walk,
-                              ShadowPoints* points) {
-    ShadowLight light = light_of_cast(cast, j);
-#if AREA_SHADOWS
-    if (light.is_area) return;
-#endif
-    global uint* words = words_of_light(cast, j);
+// Gathers the points that face the light, about a third of a cluster's, so that all items are busy,
+// and their box.
+static inline void gather_faced(ClusterCast cast, ShadowLight light, global const uint* words,
+                                ShadowPoints* points, local GroupWalk* walk) {
+    LaneBox box = no_box();
     bool any = false;
-    ulong tests_before = counted_tests(points);
-    uint rays = 0, seen = 0;
 #pragma unroll
     for (uint k = 0; k < SHADOW_POINTS; ++k) {
         if (k >= points->row_count) continue;
@@ -215,22 +200,73 @@ static inline void cast_light(ClusterCast cast, uint j, local GroupWalk* walk,
                           (words[place / 32u - cast.first / 32u] >> place % 32u & 1u));
 #endif
         MASK lit = face_light(cast.scene.view, points, k, light, mine);
-        any |= lane_any(lit);
-        rays += lane_count(lit);
+        if (!lane_any(lit)) continue;
+        FV3 p = load_points(points, k);
+        box = grown_box(box, lit, p);
+        uint i = atomic_inc(&walk->faced);
+        walk->places[i] = (uchar)place;
+        walk->x[i] = p.x, walk->y[i] = p.y, walk->z[i] = p.z;
+        any = true;
     }
-    barrier(CLK_LOCAL_MEM_FENCE);  // the last light is done
-    begin_walk(walk);
-    barrier(CLK_LOCAL_MEM_FENCE);  // 0 before any item's points are lit
-    if (any) walk->lit = 1u;
-    Shaft shaft = make_shaft(light, box_end(walk->box.low), box_end(walk->box.high));
-    cast_shadows_of_group(cast.scene, light, shaft, walk, points);
+    if (any) {
+        grow_box(&walk->box, box);
+        walk->lit = 1u;
+    }
+}
+
+// The item's gathered points, all of them lit; their number.
+static inline uint load_faced(ShadowLight light, local const GroupWalk* walk, ShadowPoints* to) {
+    uint count = 0u;
+    to->row_count = (walk->faced + GROUP - 1u) / GROUP;
 #pragma unroll
     for (uint k = 0; k < SHADOW_POINTS; ++k) {
-        uint place = place_of_point(cast.first, k);
-        if (place < cast.end) walk->flags[place] = lane_any(lit_of(points, k));
-        if (place < cast.end) seen += lane_count(lit_of(points, k));
+        if (k >= to->row_count) continue;
+        uint i = place_of_point(0u, k);
+        uint from = min(i, walk->faced - 1u);
+        FV3 p = fv3(walk->x[from], walk->y[from], walk->z[from]);
+        FV3 e = edge_point(light, p);
+        to->x[k] = p.x, to->y[k] = p.y, to->z[k] = p.z;
+        to->ex[k] = e.x, to->ey[k] = e.y, to->ez[k] = e.z;
+        to->lit[k] = as_float(lane_mask(i < walk->faced));
+        if (i < walk->faced) ++count;
     }
-    count_rays(points, tests_before, rays, seen);
+    return count;
+}
+
+// Sets the flags of the item's points that are lit; their number.
+static inline uint flag_lit(const ShadowPoints* faced, local GroupWalk* walk) {
+    uint seen = 0u;
+#pragma unroll
+    for (uint k = 0; k < SHADOW_POINTS; ++k) {
+        if (k >= faced->row_count || !lane_any(lit_of(faced, k))) continue;
+        walk->flags[walk->places[place_of_point(0u, k)]] = 1u;
+        ++seen;
+    }
+    return seen;
+}
+
+// One light's bits of one cluster.
+static inline void cast_light(ClusterCast cast, uint j, local GroupWalk* walk,
+                              ShadowPoints* points) {
+    ShadowLight light = light_of_cast(cast, j);
+#if AREA_SHADOWS
+    if (light.is_area) return;
+#endif
+    global uint* words = words_of_light(cast, j);
+    barrier(CLK_LOCAL_MEM_FENCE);  // the last light is done
+    begin_walk(walk);
+    empty_box(&walk->box);
+    for (uint i = cast.first + this_item(); i < cast.end; i += GROUP) walk->flags[i] = 0u;
+    barrier(CLK_LOCAL_MEM_FENCE);  // empty before any adds to it
+    gather_faced(cast, light, words, points, walk);
+    barrier(CLK_LOCAL_MEM_FENCE);  // all are gathered
+    ShadowPoints faced;
+    reset_counts(&faced);
+    uint rays = load_faced(light, walk, &faced);
+    Shaft shaft = make_shaft(light, box_end(walk->box.low), box_end(walk->box.high));
+    cast_shadows_of_group(cast.scene, light, shaft, walk, &faced);
+    count_rays(&faced, 0ul, rays, flag_lit(&faced, walk));
+    add_counts(points, &faced);
     // All flags are set, and all have read the words.
     barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
     store_words(cast.first, cast.end, walk, words);
@@ -276,7 +312,6 @@ static inline bool cast_area_lights(ClusterCast cast, AreaPixels pixels, local G
 
 // The bits of the lights without a size of one cluster.
 static inline void cast_lights(ClusterCast cast, local GroupWalk* walk, ShadowPoints* points) {
-    find_box(points, walk);
     uint count = count_of_cluster(cast.from, cast.cluster);
     for (uint j = get_group_id(0) % SPLIT; j < count; j += 32u * SPLIT) {
         uint left = (count - j + SPLIT - 1u) / SPLIT;

@@ -56,10 +56,14 @@ typedef struct GroupWalk {
     uint lit;                           // 1 while some point is
     uint picked;                        // bits of lights
     uchar flags[FINE_TILE_PIXELS];      // of places: 1 where lit
+    // The points that face the light, in any order: their number, places and positions [m].
+    uint faced;
+    uchar places[FINE_TILE_PIXELS];
+    float x[FINE_TILE_PIXELS], y[FINE_TILE_PIXELS], z[FINE_TILE_PIXELS];
 #if COUNT_SHADOWS
     ShadowCounts counts[GROUP];  // of the items: nodes, triangles and shafts by each for all
 #endif
-    GroupBox box;  // of the points
+    GroupBox box;  // of the points that face the light
 #if AREA_SHADOWS
     GroupRays rays;
 #endif
@@ -88,12 +92,13 @@ static inline void empty_box(local GroupBox* box) {
     box->high[this_item()] = ordered_bits(as_int(-SHADOW_NOWHERE));
 }
 
-static inline void grow_box(local GroupBox* box, FV3 p) {
-    const float at[3] = {p.x, p.y, p.z};
+static inline void grow_box(local GroupBox* box, LaneBox by) {
+    const float low[3] = {by.low.x, by.low.y, by.low.z};
+    const float high[3] = {by.high.x, by.high.y, by.high.z};
 #pragma unroll
     for (uint axis = 0; axis < 3; ++axis) {
-        atomic_min(&box->low[axis], ordered_bits(as_int(at[axis])));
-        atomic_max(&box->high[axis], ordered_bits(as_int(at[axis])));
+        atomic_min(&box->low[axis], ordered_bits(as_int(low[axis])));
+        atomic_max(&box->high[axis], ordered_bits(as_int(high[axis])));
     }
 }
 
@@ -131,13 +136,14 @@ static inline uint find_picked(ClusterCast cast, uint first, local GroupWalk* wa
 #define find_picked(cast, first, walk) 0xffffffffu
 #endif
 
-// Starts a walk at the root. `lit` is 0 until an item sets it.
+// Starts a walk at the root, for no points: `lit` is 0 until an item sets it.
 static inline void begin_walk(local GroupWalk* walk) {
     if (this_item() != 0u) return;
     walk->stack[0] = 0u;
     walk->top = 1u;
     walk->count = 0u;
     walk->lit = 0u;
+    walk->faced = 0u;
 }
 
 // How many of the `top` nodes on the stack are taken at once: so many that afterwards a walk that

@@ -173,6 +173,13 @@ static inline LaneBox grown_box(LaneBox box, MASK mask, FV3 p) {
     return box;
 }
 
+// A point in the coordinates of edges' forms, see ShadowForm; of a light without a size.
+static inline FV3 edge_point(ShadowLight light, FV3 p) {
+    if (light.is_direction) return p;
+    FV3 d = sub3(p, splat3(light.at));
+    return scale3(d, fv(1.0f) / max(size3(d), fv(1e-30f)));
+}
+
 // Returns the points of row `row` that face the light and are within its range. The eye must see
 // the side of the triangle that the light is on; beyond the range, and a little more, there is no
 // light to hide. For lights with a size it also draws each point's target and stores it in ex, ey,
@@ -197,7 +204,7 @@ static inline MASK face_light(ShadowView view, ShadowPoints* points, uint row, S
         FV3 d = sub3(p, splat3(light.at));
         lit &= lane_mask(dot3(n, d) < fv(0.0f)) &
                lane_mask(dot3(d, d) * light.inv_range2 < fv(1.001f));
-        e = scale3(d, fv(1.0f) / max(size3(d), fv(1e-30f)));
+        e = edge_point(light, p);
     }
     lane_store(e.x, points->ex + at);
     lane_store(e.y, points->ey + at);

@@ -2,17 +2,18 @@
 // Sets up triangles and lists those of every tile of the picture: a counting sort of (triangle,
 // tile) pairs.
 //
-//   bin_triangles_clear   (groups only) cursors to 0
 //   bin_triangles_set_up  triangles -> rows and boxes of tiles, and pairs by (chunk of triangles,
 //                         tile); none where no pixel can show it: turned away, outside, between
 //                         pixels' centres
-//   bin_triangles_offset  where each chunk's pairs begin within each tile, and its total
+//   bin_triangles_offset  (GROUP == 1) where each chunk's pairs begin within each tile, and its
+//                         total
 //   (prefix_sum over tiles)
 //   bin_triangles_fill    writes the triangles' numbers
 //
 // GROUP == 1: a work-item walks a chunk, VW triangles at once, and lists ascend. Else a work-group
-// takes GROUP triangles, and atomics move the cursors of a single chunk: lists have any order. The
-// raster's result does not depend on it, since the first by number of equally near triangles wins.
+// takes GROUP triangles; set-up counts each tile's pairs up, filling counts them down to 0, so that
+// the next picture needs no clear, and lists have any order. The raster's result does not depend on
+// it, since the first by number of equally near triangles wins.
 #ifndef GROUP
 #define GROUP 1
 #endif
@@ -59,7 +60,7 @@ static inline TileBox load_box(global const uint* boxes) {
 typedef struct TileWalk {
     View view;
     global const RasterRow* triangles;
-    global uint* cursors;        // of this chunk, or of all
+    global uint* cursors;        // of this chunk, or of all [tiles]
     global const uint* offsets;  // [tiles + 1]; fill only
     global uint* lists;          // fill only
     uint capacity;               // of lists
@@ -76,7 +77,7 @@ static inline uint take_slot(TileWalk walk, uint tile) {
 #if GROUP == 1
     return walk.cursors[tile]++;
 #else
-    return atomic_inc(walk.cursors + tile);
+    return walk.fill ? atomic_dec(walk.cursors + tile) - 1u : atomic_inc(walk.cursors + tile);
 #endif
 }
 
@@ -181,16 +182,12 @@ static inline void walk_group(TileWalk walk, TileBox mine, local ulong* ends,
 }
 #endif
 
-kernel void bin_triangles_clear(uint count, global uint* restrict cursors) {
-    uint i = get_global_id(0);
-    if (i < count) cursors[i] = 0u;
-}
-
 // Binning of host/stages/surfaces/bin_triangles.cpp.
 // some_closed: 0: `closed` is not read. closed: [tiles]: 1 where no triangle is needed. boxes:
 // [triangle_count][4]: TileBox; GROUP == 1: of kept ones, from each chunk's beginning on; else by
-// number. kept: [chunks]: kept triangles; GROUP == 1 only. cursors: [chunks][cursor_stride]: pairs,
-// then starts, which filling uses up.
+// number. kept: [chunks]: kept triangles; GROUP == 1 only. cursors: GROUP == 1:
+// [chunks][cursor_stride]: pairs, then starts, which filling uses up; else [tiles]: pairs, 0 before
+// and after.
 #define BINNING_ARGS(access)                                                    \
     uint triangle_count, uint some_closed, global const uchar *restrict closed, \
         global access uint *restrict boxes, global access uint *restrict kept,  \

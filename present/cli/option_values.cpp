@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "host/base/error.h"
+#include "host/base/formats/color_text.h"
 #include "host/base/formats/srgb.h"
 #include "host/base/suggest.h"
 #include "present/cli/sequence.h"
@@ -16,16 +17,6 @@ namespace {
 [[noreturn]] void refuse(const std::string& option, std::string_view text,
                          const std::string& wanted) {
     throw UsageError(fmt::format("{}: '{}' is not {}", option, text, wanted));
-}
-
-// "+5" is 5.
-std::string_view without_plus(std::string_view text) {
-    return text.size() > 1 && text[0] == '+' && text[1] != '-' ? text.substr(1) : text;
-}
-
-template <typename Number>
-std::optional<Number> signed_number_of(std::string_view text) {
-    return number_of<Number>(without_plus(text));
 }
 
 constexpr const char* kOrAuto[] = {"", "'auto' or "};
@@ -159,21 +150,8 @@ BackgroundChoice parse_background(const std::string& option, std::string_view te
     using Kind = BackgroundChoice::Kind;
     if (text == "auto") return {};
     if (text == "none") return {Kind::none};
-    std::string_view hex = text.starts_with('#') ? text.substr(1) : text;
-    if (const auto code = number_of<unsigned>(hex, 16); code && hex.size() == 6) {
-        const auto table = srgb_to_linear_table();
-        return {Kind::color,
-                glm::dvec3(table[*code >> 16], table[*code >> 8 & 255u], table[*code & 255u]),
-                true};
-    }
-    glm::vec3 color(-1.0f);
-    const auto parts = split(text, ',');
-    for (std::size_t i = 0; i < 3 && parts.size() == 3; ++i) {
-        const double value = signed_number_of<double>(parts[i]).value_or(-1.0);
-        color[static_cast<int>(i)] =
-            contains(kZeroOrAboveRange, value) ? static_cast<float>(value) : -1.0f;
-    }
-    if (glm::all(glm::greaterThanEqual(color, glm::vec3(0.0f)))) return {Kind::color, color};
+    if (const auto shown = hex_color(text)) return {Kind::color, *shown, true};
+    if (const auto light = rgb_color(text)) return {Kind::color, *light};
     refuse(option, text,
            "'auto', 'none', or a colour: R,G,B as linear light, each at least 0, or #RRGGBB as "
            "the display shows it");

@@ -26,11 +26,13 @@ void check_reflections(const SharedOptions& options) {
 
 // A new member does not compile here: add a row below, then its name. Members without a row are set
 // elsewhere: by the renderer (opened, background, reflections), by tests (force_features,
-// band_rows, kernels.chunks, kernels.group_height), and by the window and the commands
-// (grid.fine_per_octave, memory_shares and the rest of want).
+// band_rows, kernels.chunks, kernels.group_height), by the scene (groups), by mixed_generated()
+// (lights.gain), and by the window and the commands (grid.fine_per_octave, memory_shares and the
+// rest of want).
 void count_members(SharedOptions& options) {
-    [[maybe_unused]] auto& [scene, load, settings, rig, emissive_lights, light_groups, environment,
-                            background, shown_background, reflections, maps, shows_environment,
+    [[maybe_unused]] auto& [scene, load, settings, rig, emissive_lights, light_groups,
+                            no_light_layers, takes_light_layers, environment, background,
+                            shown_background, reflections, maps, shows_environment,
                             compares_renderers, environment_lights, lights_given, ambient_given,
                             tone_curve_given, shadow_rays_given, takes_automatic_exposure,
                             automatic_exposure, takes_automatic_samples, camera, time, show_error,
@@ -40,10 +42,10 @@ void count_members(SharedOptions& options) {
     [[maybe_unused]] auto& [renderer, width, height, lights, tails, range_budget, seed, tree_share,
                             gbuffer, geometry, anisotropy, no_reuse, shading, shadows,
                             opaque_shadows, shadow_rays, ambient, backdrop, mirrored, bloom,
-                            exposure, tone_curve, samples, auto_samples, want, groups, grid,
+                            exposure, tone_curve, samples, auto_samples, want, groups, mix, grid,
                             kernels, force_features, max_memory_bytes, memory_shares, band_rows,
                             device, opened] = settings;
-    [[maybe_unused]] auto& [count, light_seed, radius, intensity, size, box] = lights;
+    [[maybe_unused]] auto& [count, light_seed, radius, intensity, size, box, gain] = lights;
     [[maybe_unused]] auto& [on, error, most] = auto_samples;
     [[maybe_unused]] auto& [display, radiance, shown_light, counts, shadow_counts, view, aovs,
                             layer, probes, strip_makers, crop_pixels] = want;
@@ -137,7 +139,7 @@ void visit_more_lights(const SettingVisitor& f, SharedOptions& o) {
         .choice({"--emissive-lights", "", "",
                  "Whether emissive surfaces light the others, each triangle as a light with its "
                  "mean emission",
-                 kPicture},
+                 kPanelPicture},
                 o.emissive_lights)
         .value({"--light-box", "X0,Y0,Z0,X1,Y1,Z1", "the scene's", "Where they are", kPicture, "m"},
                s.lights.box, parse_box)

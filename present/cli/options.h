@@ -31,6 +31,8 @@ struct SharedOptions {
     Rig rig = Rig::automatic;
     EmissiveLights emissive_lights = EmissiveLights::automatic;
     std::vector<LightGroup> light_groups;  // asked for; settings has those of the scene
+    bool no_light_layers = false;          // groups serve settings.light_mix only
+    bool takes_light_layers = true;        // the command's files can hold them
     std::string environment;               // file or built-in name; empty: none
     BackgroundChoice background;           // behind the scene
     std::shared_ptr<const Environment> shown_background;  // set by light_scene()

@@ -196,9 +196,10 @@ struct FormatOption {
 
 std::vector<FormatOption> format_options(const SharedOptions& shared, const Encoding& e) {
     const bool has_layers = !shared.settings.want.aovs.empty();
+    const bool has_light_layers = !shared.light_groups.empty() && !shared.no_light_layers &&
+                                  shared.settings.light_mix.gains.empty();
     return {{"--aov", has_layers, holds_layers, "cannot hold layers; use .exr"},
-            {"--light-groups", !shared.light_groups.empty(), holds_layers,
-             "cannot hold layers; use .exr"},
+            {"--light-groups", has_light_layers, holds_layers, "cannot hold layers; use .exr"},
             {"--exr-half", e.half_colour, holds_layers, "is not an EXR file"},
             {"--exr-compression", e.exr_compression != kExrCompression, holds_layers,
              "is not an EXR file"},

@@ -66,6 +66,14 @@ void visit_picture(const SettingVisitor& f, SharedOptions& o) {
                     light_pattern_meaning() + "; each: a group for each node with lights",
                 kPicture},
                o.light_groups, parse_light_groups)
+        .value({"--light-mix", "NAME=GAIN[:COLOR],...", "none",
+                "Multiplies the light of groups of --light-groups, or of the rest, by a gain of at "
+                "least 0 and a colour: R,G,B (linear) or #RRGGBB (sRGB)",
+                kPicture},
+               s.light_mix.gains, parse_light_mix)
+        .flag("--no-light-layers", o.no_light_layers,
+              "No layers of --light-groups: they serve --light-mix only, and cost nothing",
+              kPicture)
         .choice({"--aov-layer", "", "", "Of which surfaces --aov and --show tell", kPicture},
                 s.want.layer);
 }

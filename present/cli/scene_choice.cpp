@@ -163,8 +163,8 @@ std::string tails_line(const Scene& scene, const RenderSettings& settings, bool 
                           "end where each adds {:.3g} of radiance; their sum loses up to about "
                           "{:.0f} % at a point (--aov error-bound), with --tails exact nothing",
                           settings.range_budget,
-                          100.0 * bounded_loss(scene.lights, resting_bounds(scene),
-                                               settings.range_budget));
+                          100.0 * bounded_loss(mixed_lights(scene, settings.light_mix),
+                                               resting_bounds(scene), settings.range_budget));
     }
     return line + fmt::format(
                       "have random ones, at least to where each adds {:.3g} of radiance: "
@@ -306,14 +306,18 @@ void choose_emissive_lights(const SharedOptions& options, AnimatedScene& scene) 
 
 void choose_light_groups(SharedOptions& options, const Scene& scene) {
     RenderSettings& s = options.settings;
-    s.light_groups = light_groups_of(scene, s.lights, options.light_groups);
+    s.light_mix.groups = light_groups_of(scene, s.lights, options.light_groups);
+    check_light_mix(s.light_mix);
+    const bool has_layers = options.takes_light_layers && !options.no_light_layers;
+    s.light_groups = has_layers ? s.light_mix.groups : std::vector<LightGroup>();
 }
 
 void choose_tails(SharedOptions& options, const Scene& scene) {
     RenderSettings& s = options.settings;
     const bool bounded = tails_for(scene.lights, s.tails, s.range_budget) == Tails::bounded;
     if (s.tails != Tails::automatic || !bounded || s.range_budget != kDefaultRangeBudget) return;
-    if (bounded_loss(scene.lights, resting_bounds(scene), s.range_budget) <= kMostLost) return;
+    const std::vector<SceneLight> lights = mixed_lights(scene, s.light_mix);
+    if (bounded_loss(lights, resting_bounds(scene), s.range_budget) <= kMostLost) return;
     // What a tree does not hold reaches every pixel.
     const auto unranged = std::ranges::count_if(scene.lights, lacks_range);
     const auto outside = unranged - std::ranges::count_if(scene.lights, is_for_tree);
@@ -324,8 +328,8 @@ void choose_tails(SharedOptions& options, const Scene& scene) {
         return;
     }
     s.tails = Tails::bounded;
-    s.range_budget = budget_of_sum(scene.lights, resting_bounds(scene), s.range_budget);
-    const double lost = bounded_loss(scene.lights, resting_bounds(scene), s.range_budget);
+    s.range_budget = budget_of_sum(lights, resting_bounds(scene), s.range_budget);
+    const double lost = bounded_loss(lights, resting_bounds(scene), s.range_budget);
     if (lost <= kMostLost) return;
     warn(fmt::format(
         "{}: lights without a range are cut off; up to about {:.0f} % of their light is lost at a "

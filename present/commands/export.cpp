@@ -37,11 +37,14 @@ Scene scene_to_export(ExportOptions& options) {
     SharedOptions& shared = options.shared;
     Scene scene = open_scene(shared);
     const Camera camera = choose_camera(shared, scene);
+    const GroupMix& mix = shared.settings.light_mix;
+    const auto generated =
+        generate_lights(mixed_generated(shared.settings.lights, scene, mix), scene, shared.time);
+    scene.lights = mixed_lights(scene, mix);
     for (SceneLight& light : scene.lights) {
         light = placed_light(light, camera.world_from_view, camera.position);
     }
     scene.cameras.insert(scene.cameras.begin(), scene_camera(camera, shared.settings));
-    const auto generated = generate_lights(shared.settings.lights, scene, shared.time);
     scene.lights.insert(scene.lights.end(), generated.begin(), generated.end());
     return scene;
 }

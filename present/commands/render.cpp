@@ -182,6 +182,7 @@ void run_render(RenderOptions& options) {
     options.has_alpha = wants_alpha(options);  // lighting the scene may change the background
     begin_command(options.shared, !out.reference.empty());
     check_budget(options.shared, options.budget);
+    options.shared.takes_light_layers = !is_video(out.output) && holds_layers(out.output);
     const std::string inputs = inputs_comment(options);
     options.command += inputs;
     for (PictureTile& tile : options.tiles) tile.command += inputs;

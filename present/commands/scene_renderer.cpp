@@ -170,6 +170,7 @@ void SceneRenderer::set_lights(std::vector<SceneLight> lights) {
     settings.tails = options_.settings.tails;
     settings.range_budget = options_.settings.range_budget;
     settings.light_groups = options_.settings.light_groups;
+    settings.light_mix = options_.settings.light_mix;
     renderer_->change(settings);
     renderer_->refit();
 }

@@ -36,6 +36,23 @@ bool take_kept_rig(SharedOptions& shared, const CLI::App& command, StateFile& fi
     return shared.rig != Rig::automatic;
 }
 
+// Takes the kept choice of emissive lights, unless the command line has one, or it would have such
+// lights beside settings of the command line that exclude them.
+void take_kept_emissive_lights(SharedOptions& shared, const CLI::App& command, StateFile& file,
+                               const Scene& scene) {
+    if (is_given(command, "--emissive-lights")) return;
+    const EmissiveLights kept = kept_state(file).emissive_lights;
+    const std::string problem =
+        kept == EmissiveLights::on && has_glowing_surfaces(scene)
+            ? area_lights_problem(model_of(shared.settings.shading), shared.settings.shadows)
+            : "";
+    if (problem.empty()) {
+        shared.emissive_lights = kept;
+    } else {
+        note("--emissive-lights: not the kept value: " + problem);
+    }
+}
+
 // Kept settings that exclude lights with a size, where the scene or the command line has some, and
 // a kept size where the command line has such settings: these wait for another run.
 std::set<std::string> excluded_options(const ViewOptions& options, const CLI::App& command,
@@ -79,7 +96,8 @@ ViewState start_state(const ViewOptions& options, const CLI::App& command, State
     const bool rig_decides = !keeps_rig && (!is_swarm || of_other_rig);
     return file.load(state, [&](const std::string& name) {
         const bool of_rig = name == "--lights" || name == "--ambient";
-        return is_given(command, name) || excluded.contains(name) || name == "--rig" ||
+        const bool is_taken = name == "--rig" || name == "--emissive-lights";
+        return is_given(command, name) || excluded.contains(name) || is_taken ||
                (rig_decides && of_rig) || (counts && name == "--samples");
     });
 }
@@ -147,8 +165,9 @@ void run_view(ViewOptions& options, const CLI::App& command) {
     const OpenScreen open_screen = prepare_screen(options);
     StateFile file(options.fresh ? std::filesystem::path() : view_state_file());
     const bool keeps_rig = take_kept_rig(options.shared, command, file);
-    session.asked = options.shared;
     AnimatedScene scene = open_animated_scene(options.shared);
+    take_kept_emissive_lights(options.shared, command, file, scene.scene());
+    session.asked = options.shared;
     note(light_scene(options.shared, scene));
     session.shared = options.shared;
     session.state = start_state(options, command, file, session.asked, scene.scene(), keeps_rig);
@@ -198,6 +217,7 @@ void visit_settings(ViewOptions& options, const SettingVisitor& f) {
 
 void add_view_options(CLI::App& command, ViewOptions& options) {
     options.shared.shows_environment = true;
+    options.shared.takes_light_layers = false;
     add_options(command, options);
     leave_to_help_all(command, {"--aov"});
 }

@@ -2,8 +2,6 @@
 #include "present/image/image_file.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -15,6 +13,7 @@
 #include "host/base/formats/half.h"
 #include "host/base/suggest.h"
 #include "host/base/system/atomic_write.h"
+#include "host/base/system/parallel.h"
 #include "host/base/version.h"
 #include "host/images/images.h"
 #include "present/image/image_notes.h"
@@ -139,9 +138,7 @@ void add_channel(ImageLayout& layout, const std::string& name, SampleType type) 
 template <typename Call>
 void each_in_parallel(std::size_t count, const Call& call) {
     constexpr std::size_t kAtOnce = 1u << 16;  // fewer are not worth a task
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kAtOnce), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) call(i);
-    });
+    parallel_for(std::size_t{0}, count, call, kAtOnce);
 }
 
 // Copies interleaved values, `count` a pixel, into every pixel's slots from `offset` bytes on.

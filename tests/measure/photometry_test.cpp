@@ -300,6 +300,29 @@ TEST(Photometry, TheBoundOfALightAheadIsExact) {
     }
 }
 
+// Of points of one group that face a light the bound is that of the one at its range, where it cuts
+// off most: whether the group lies within the range, around it or beyond.
+TEST(Photometry, TheBoundOfAGroupIsThatOfItsWorstPoint) {
+    const glm::dvec3 light(0, 0.5, 0);
+    Scene scene = scene_of({point_light(light, 100.0f)});
+    scene.lights[0].range = 2.0f;
+    for (const double start : {0.0, 1.5, 3.0}) {
+        std::vector<MeasuringPoint> points;
+        for (int i = 0; i < 200; ++i) {
+            const glm::dvec3 at(start + 0.0075 * i, 0, 0);
+            points.push_back({at, glm::normalize(light - at)});
+        }
+        const double bound = range_loss_bounds(scene, points, order_in_groups(points))[0];
+        const ExactLighting exact(scene);
+        double most = 0.0;
+        for (const MeasuringPoint& point : points) {
+            most = std::max(most, exact.at(point).range_loss);
+        }
+        EXPECT_LE(most, bound * (1.0 + 1e-12)) << start;  // rounding of float64
+        EXPECT_NEAR(most, bound, 0.01 * bound) << start;
+    }
+}
+
 TEST(Photometry, ALightAtThePointLosesNothing) {
     Scene scene = scene_of({point_light({0, 2, 0}, 100.0f)});
     scene.lights[0].range = 5.0f;

@@ -166,7 +166,7 @@ TEST(TuningTrials, GiveTheSameBits) {
     }
     // Groups that stage lights have 16 rows and no other number.
     if (result.start.tuning.shade_stage > 0) parameters.insert("shade_rows");
-    EXPECT_EQ(parameters.size(), bench.device().is_cpu ? 9u : 8u);
+    EXPECT_EQ(parameters.size(), bench.device().is_cpu ? 9u : 10u);
 }
 
 TEST(LightingBenchTest, CountsAsTheRendererDoes) {

@@ -282,6 +282,30 @@ TEST_F(ShippedTunings, MatchesTheDeviceThenItsClass) {
     EXPECT_FALSE(match(device));
 }
 
+TEST_F(ShippedTunings, AGpuTakesThatOfItsChip) {
+    const std::vector<ShippedTuning> table = {
+        {"CUDA", "NVIDIA L40", "3.0", false, 10, {2, {.cull_group = 32, .geometry = 1}}},
+        {"CUDA", "NVIDIA H200", "3.0", false, 10, {2, {.cull_group = 64, .geometry = 1}}}};
+    DeviceInfo device;
+    device.platform = "CUDA";
+    device.compute_units = 10;
+    device.max_work_group = 1024;
+    for (const char* name : {"NVIDIA H100 80GB HBM3", "NVIDIA GH200 480GB", "NVIDIA H200 NVL"}) {
+        device.name = name;
+        const auto match = shipped_tuning(device, table);
+        ASSERT_TRUE(match) << name;
+        EXPECT_FALSE(match->same_device) << name;
+        EXPECT_EQ(match->tuning.tuning.cull_group, 64) << name;
+        EXPECT_EQ(match->tuning.tuning.geometry, 1) << name;
+    }
+    device.name = "NVIDIA A100";
+    EXPECT_EQ(shipped_tuning(device, table)->tuning.tuning.cull_group, 32) << "of its class";
+    EXPECT_EQ(shipped_tuning(device, table)->tuning.tuning.geometry, 0);
+    device.name = "NVIDIA H100 80GB HBM3";
+    device.platform = "Another";
+    EXPECT_FALSE(shipped_tuning(device, table));
+}
+
 TEST_F(ShippedTunings, MeasuringHereCountsMore) {
     ASSERT_FALSE(shipped_tunings().empty());
     for (const ShippedTuning& row : shipped_tunings()) {
@@ -297,7 +321,7 @@ TEST_F(ShippedTunings, MeasuringHereCountsMore) {
         EXPECT_EQ(known.lanes, row.tuning.lanes);
         EXPECT_EQ(known.tuning.cull_chunks, row.tuning.tuning.cull_chunks);
         EXPECT_EQ(known.tuning.geometry, row.tuning.tuning.geometry);
-        device.name += " of another kind";
+        device.name = "of another kind";
         EXPECT_EQ(text_of(known_tuning(device).source), "shipped for its class");
         const int of_class = row.is_cpu ? row.tuning.tuning.geometry : 0;
         EXPECT_EQ(known_tuning(device).tuning.geometry, of_class) << "measured on no such GPU";

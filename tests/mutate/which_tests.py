@@ -41,7 +41,7 @@ STEPS = (
     (r"shared/(tone_curve|srgb_code)", DISPLAY + BACKGROUND),
     (r"shared/(types|view|clusters|cluster_grid)", LISTS + LIGHTING + SURFACES + PICTURES),
     (r"shading/(environment|reflect_environment|fill_background)", BACKGROUND),
-    (r"shading/sum_lights", LIGHTING + SHADOWS),
+    (r"shading/(light_set|seen_lights|hidden_lights|add_light|sum_lights)", LIGHTING + SHADOWS),
     (r"shading/light_target", LIGHTING + DISPLAY),
     (r"shading/", LIGHTING + PICTURES + SHADOWS),
     (r"lights/", LIGHTS + PROFILES + TAILS),

@@ -53,6 +53,7 @@ std::vector<Measure> surface_measures() {
             OFFSET_OF(DriftBox, rate_low),
             SIZE_OF(LightSwarm),
             OFFSET_OF(LightSwarm, intensity),
+            OFFSET_OF(LightSwarm, gain),
             OFFSET_OF(LightSwarm, boxes),
             SIZE_OF(DriftTime),
             OFFSET_OF(DriftTime, rest_high),

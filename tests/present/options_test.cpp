@@ -143,7 +143,8 @@ TEST(Options, LightCameraAndDeviceOptionsArrive) {
     const Parsed p = parsed(
         "--lights 2147483648 --light-seed 18446744073709551615 --light-radius 2.5 "
         "--light-intensity 7 --light-size 0.25 --emissive-lights on --light-box -1,-2,-3,1,2,3 "
-        "--light-groups key=lamp*+kind:spot,fill=ies:* "
+        "--light-groups key=lamp*+kind:spot,fill=ies:* --light-mix key=2,fill=0.5:1,0.5,0 "
+        "--no-light-layers "
         "--camera-index 3 "
         "--camera-position -1,2,3 "
         "--camera-focal-point 0,0,-1e3 --camera-view-up 0,0,1 --camera-view-angle 45.5 "
@@ -160,6 +161,8 @@ TEST(Options, LightCameraAndDeviceOptionsArrive) {
     EXPECT_EQ(p.shared.light_groups[0].name, "key");
     EXPECT_EQ(p.shared.light_groups[0].patterns, (std::vector<std::string>{"lamp*", "kind:spot"}));
     EXPECT_EQ(text_of(p.shared.light_groups), "key=lamp*+kind:spot,fill=ies:*");
+    EXPECT_EQ(text_of(p.shared.settings.light_mix.gains), "key=2,fill=0.5:1,0.5,0");
+    EXPECT_TRUE(p.shared.no_light_layers);
     EXPECT_EQ(l.box.min, glm::dvec3(-1, -2, -3));
     EXPECT_EQ(l.box.max, glm::dvec3(1, 2, 3));
     EXPECT_EQ(p.shared.camera.index, 3);

@@ -108,7 +108,7 @@ TEST(Settings, ReachEveryMember) {
         BOTH(samples), BOTH(auto_samples.error), BOTH(auto_samples.most), BOTH(want.view),
         BOTH(want.aovs), BOTH(grid.tiles_x), BOTH(grid.tiles_y), BOTH(grid.slices_per_octave),
         BOTH(grid.fine_per_octave), BOTH(kernels.lanes), BOTH(kernels.math),
-        BOTH(kernels.light_colors), BOTH(max_memory_bytes), BOTH(device));
+        BOTH(kernels.light_colors), BOTH(light_mix.gains), BOTH(max_memory_bytes), BOTH(device));
 #undef BOTH
     for (std::size_t i = 0; i < reached.size(); ++i) EXPECT_TRUE(reached[i]) << "member " << i;
 }
@@ -172,11 +172,13 @@ TEST(Settings, OfBenchThatChangeItsFramesRefuseAResume) {
 
 // Values set in the panel are kept after the window's end.
 TEST(Settings, OfThePanelComeBack) {
-    const Names panel = {
-        "--renderer", "--samples",    "--show",       "--gbuffer",      "--shading",
-        "--shadows",  "--ambient",    "--exposure",   "--tonemap",      "--bloom",
-        "--rig",      "--lights",     "--light-seed", "--light-radius", "--light-intensity",
-        "--tails",    "--tree-share", "--grid",       "--lanes",        "--light-size"};
+    const Names panel = {"--renderer",   "--samples",      "--show",
+                         "--gbuffer",    "--shading",      "--shadows",
+                         "--ambient",    "--exposure",     "--tonemap",
+                         "--bloom",      "--rig",          "--lights",
+                         "--light-seed", "--light-radius", "--light-intensity",
+                         "--tails",      "--tree-share",   "--grid",
+                         "--lanes",      "--light-size",   "--emissive-lights"};
     auto options = initial<SharedOptions>();
     for (const Setting& setting : settings_of(options)) {
         EXPECT_EQ(setting.text.effect.in_panel, panel.contains(setting.option()))
@@ -191,12 +193,14 @@ TEST(Settings, OfThePanelComeBack) {
         ViewState state;
         state.settings = changed.options.settings;
         state.rig = changed.options.rig;
+        state.emissive_lights = changed.options.emissive_lights;
         StateFile file(folder / "view.json");
         const ViewState start = file.load({}, nothing_given);
         file.save(state);
         const ViewState again = StateFile(folder / "view.json").load({}, nothing_given);
         EXPECT_EQ(again.settings, state.settings) << changed.option;
         EXPECT_EQ(again.rig, state.rig) << changed.option;
+        EXPECT_EQ(again.emissive_lights, state.emissive_lights) << changed.option;
         EXPECT_FALSE(again == start) << changed.option;
     }
     EXPECT_EQ(found, panel.size());

@@ -18,6 +18,7 @@ OTHER = {  # the keyword, and the text that it stands for
     "camera_focal_point": ((0, 1, 0.5), "0,1,0.5"), "camera_view_up": ((0, 0, 1), "0,0,1"),
     "device": ("pthread", "pthread"), "max_memory": ("1073741824", "1073741824"),
     "grid": ((8, 4, 2), "8,4,2"), "lanes": (4, "4"), "light_groups": ("a=b*,c=kind:spot", "a=b*,c=kind:spot"),
+    "light_mix": ("a=2,rest=0.5:1,0.5,0.25", "a=2,rest=0.5:1,0.5,0.25"),
 }
 
 

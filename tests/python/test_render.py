@@ -45,6 +45,34 @@ def test_light_groups_add_up_to_the_picture(tmp_path):
         kilolux.render("grid", light_groups="a=lamp", **SMALL)
 
 
+def test_gains_mix_the_light_of_groups(tmp_path):
+    options = {**SMALL, "lights": 60, "light_groups": "globes=*globe,swarm=from:generated"}
+    plain = kilolux.render("lanterns", **options)
+    mix = "globes=0.5:1,0.5,0.25,swarm=2"
+    renderer = kilolux.Renderer("lanterns", no_light_layers=True, **options)
+    np.testing.assert_array_equal(renderer.render().radiance, plain.radiance)
+    renderer.change(light_mix=mix)
+    mixed = renderer.render()
+    assert not mixed.lights
+    factors = {"globes": np.float32([0.5, 0.25, 0.125]), "swarm": np.float32(2.0), "rest": np.float32(1.0)}
+    expected = sum(factors[name] * light for name, light in plain.lights.items())
+    np.testing.assert_allclose(mixed.radiance, expected, rtol=1e-5, atol=1e-6)
+    whole = kilolux.render("lanterns", light_mix=mix, **options)
+    np.testing.assert_array_equal(whole.radiance, mixed.radiance)
+    np.testing.assert_array_equal(whole.lights["swarm"], 2.0 * plain.lights["swarm"])
+    words = ["lanterns", *SMALL_WORDS, "--lights", "60", "--light-groups", options["light_groups"], "--light-mix", mix]
+    assert run("render", *words, "-o", tmp_path / "a.png").returncode == 0
+    _, png = read_image(tmp_path / "a.png", "uint8")
+    np.testing.assert_array_equal(png, mixed.display[..., :3])
+    assert run("render", *words, "--no-light-layers", "--samples", "auto", "--max-samples", "8", "-o",
+               tmp_path / "b.exr").returncode == 0
+    assert not [name for name in read_image(tmp_path / "b.exr")[0] if name.startswith("light.")]
+    renderer.change(light_mix=None)
+    np.testing.assert_array_equal(renderer.render().radiance, plain.radiance)
+    with pytest.raises(kilolux.Error, match="'globe' is none of the light groups globes, swarm, rest; did you mean"):
+        renderer.change(light_mix="globe=2")
+
+
 def test_arrays_are_views_that_outlive_the_frame():
     frame = kilolux.render("grid", **SMALL)
     radiance, display = frame.radiance, frame.display

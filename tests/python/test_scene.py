@@ -68,6 +68,32 @@ def test_meshes_are_placed_and_share_materials(floor):
     assert alone.aovs["position"][32, 32, 1] == pytest.approx(-1.0, abs=1e-5)
 
 
+def test_emissive_surfaces_light_where_asked(floor):
+    positions, indices = floor
+    lamp = 0.01 * np.array(positions)  # 4 cm, 1 m above the floor, facing it
+    lamp[:, 1] = 1.0
+    meshes = [kilolux.Mesh(positions, indices, material=kilolux.Material(base_color=(1, 1, 1))),
+              kilolux.Mesh(lamp, np.array(indices)[:, ::-1], material=kilolux.Material(emissive=(500, 250, 100)))]
+
+    def lights(scene, **options):
+        return kilolux.render(scene, rig="none", **VIEW, **options).stats["lights"]["given"]
+
+    dark, lit = kilolux.Scene(meshes), kilolux.Scene(meshes, LIGHT)
+    assert [lights(dark, emissive_lights=choice) for choice in ("off", "auto", "on")] == [0, 1, 1]
+    assert [lights(lit, emissive_lights=choice) for choice in ("off", "auto", "on")] == [1, 1, 2]
+    assert [lights(dark), lights(dark, shadows="exact"), lights(lit)] == [1, 0, 1]
+    with pytest.raises(kilolux.Error, match="--emissive-lights: 'maybe'"):
+        kilolux.render(dark, emissive_lights="maybe")
+    with pytest.raises(kilolux.Error, match="shadows exact"):
+        kilolux.render(dark, emissive_lights="on", shadows="exact", rig="none", **VIEW)
+    renderer = kilolux.Renderer(dark, rig="none", emissive_lights="off", **VIEW)
+    assert renderer.render().radiance[32, 32].max() == 0
+    renderer.change(emissive_lights="on")
+    # A small lamp straight above: albedo / pi * luminance * area / distance^2.
+    expected = np.array([500, 250, 100]) * 0.04**2 / np.pi
+    np.testing.assert_allclose(renderer.render().radiance[32, 32], expected, rtol=0.01)
+
+
 @pytest.mark.parametrize("mesh, words", [
     ({"indices": [[0, 1, 4]]}, "indices from 0 to 4, but there are 4 positions"),
     ({"indices": [[0, 1, 4]], "normals": [[0, 1, 0]] * 4}, "index 2 is 4, but there are 4 positions"),

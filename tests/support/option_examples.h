@@ -29,6 +29,7 @@ inline const std::map<std::string, std::string>& special_values() {
         {"--grid", "8,4,2"},
         {"--lanes", "2"},
         {"--light-groups", "key=lamp*,fill=kind:spot"},
+        {"--light-mix", "rest=0.5:1,0.5,0.25"},
         {"--output", "a.exr"},
         {"--exr-compression", "zips"},
         {"--aov-ids", "uint"},

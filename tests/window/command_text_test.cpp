@@ -48,6 +48,20 @@ TEST(CommandText, SaysTheLightsOfARig) {
     EXPECT_EQ(again.settings, options.settings) << command;
 }
 
+// Groups without a gain would ask for layers, which a PNG has not.
+TEST(CommandText, SaysGroupsOfLightsWithTheirGains) {
+    const Scene scene = make_generated_scene("plain");
+    SharedOptions options;
+    options.scene = "plain";
+    options.light_groups = parse_light_groups("", "all=*");
+    const CameraRig rig(choose_camera(options.camera, scene), bounds(scene));
+    EXPECT_EQ(render_command(rig, options, scene), "kilolux render plain -o kilolux.png");
+    options.settings.light_mix.gains = {{"all", 0.5f, {1.0f, 0.5f, 0.25f}}};
+    EXPECT_EQ(render_command(rig, options, scene),
+              "kilolux render plain --light-groups 'all=*' --light-mix all=0.5:1,0.5,0.25 "
+              "-o kilolux.png");
+}
+
 TEST(CommandText, ReproducesEverySetting) {
     const Scene scene = make_generated_scene("plain");
     SharedOptions options;

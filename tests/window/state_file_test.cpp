@@ -33,6 +33,7 @@ ViewState unusual_state() {
     state.settings.lights.size = 0.05;
     state.settings.grid = {20, 11, 8, 32};
     state.rig = Rig::headlight;
+    state.emissive_lights = EmissiveLights::on;
     state.lights_move = true;
     state.light_speed = 2.5;
     state.camera_mode = CameraMode::orbit;

@@ -27,10 +27,11 @@ struct ShippedMatch {
     bool same_device = false;  // else only of its class
 };
 
-/// The row of the device's platform, name and kind; else one of its class: of its platform, and on
-/// CPUs of its OpenCL version, which names the instructions that PoCL compiles for. The number of
-/// chunks of lights is scaled by compute units. A GPU of another name draws with OpenGL, as where
-/// nothing was measured: how fast OpenGL's way is depends on its display. None: no row matches.
+/// In this order: the row of the device's platform, name and kind; that of a GPU with the same
+/// chip; one of its platform, on CPUs of the same OpenCL version, which names the instructions that
+/// PoCL compiles for. The number of chunks of lights is scaled by compute units. A GPU of another
+/// chip draws with OpenGL, as where nothing was measured: how fast OpenGL's way is depends on its
+/// display. None: no row matches.
 std::optional<ShippedMatch> shipped_tuning(const DeviceInfo& device,
                                            std::span<const ShippedTuning> table);
 

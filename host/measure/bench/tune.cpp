@@ -34,7 +34,7 @@ StoredTuning with_value(StoredTuning tuning, const Dimension& dimension, int val
 
 // CPUs gain from wide lanes and lose with groups, as barriers split their loops; GPUs gain from
 // groups.
-std::vector<Dimension> dimensions_of(const DeviceInfo& device) {
+std::vector<Dimension> dimensions_of(const DeviceInfo& device, bool shadows) {
     const int units = device.compute_units;
     const std::vector<int> rows = {1, 2, 4, 8, 16};
     if (device.is_cpu) {
@@ -49,16 +49,22 @@ std::vector<Dimension> dimensions_of(const DeviceInfo& device) {
                 {"tile_group", &Tuning::tile_group, {1, 4, 16}},
                 {"light_group", &Tuning::light_group, {1, 4, 16, 64}}};
     }
-    return {{"lanes", nullptr, {1, 2, 4}},
-            {"shade_stage", &Tuning::shade_stage, {0, 32, 64, 128, 256, 512}},
-            {"shade_rows", &Tuning::shade_rows, rows},
-            {"cull_chunks",
-             &Tuning::cull_chunks,
-             {units, 4 * units, 8 * units, 16 * units, 32 * units, 64 * units}},
-            {"cull_group", &Tuning::cull_group, {32, 64, 128, 256}},
-            {"refine_group", &Tuning::refine_group, {16, 32, 64, 128, 256}},
-            {"tile_group", &Tuning::tile_group, {16, 32, 64, 128, 256}},
-            {"light_group", &Tuning::light_group, {32, 64, 128, 256}}};
+    std::vector<Dimension> out = {
+        {"lanes", nullptr, {1, 2, 4}},
+        {"shade_stage", &Tuning::shade_stage, {0, 32, 64, 128, 256, 512}},
+        {"shade_rows", &Tuning::shade_rows, rows},
+        {"cull_chunks",
+         &Tuning::cull_chunks,
+         {units, 4 * units, 8 * units, 16 * units, 32 * units, 64 * units}},
+        {"cull_group", &Tuning::cull_group, {32, 64, 128, 256}},
+        {"refine_group", &Tuning::refine_group, {16, 32, 64, 128, 256}},
+        {"tile_group", &Tuning::tile_group, {16, 32, 64, 128, 256}},
+        {"light_group", &Tuning::light_group, {32, 64, 128, 256}},
+        {"prefix_group", &Tuning::prefix_group, {64, 128, 256, 512}},
+        {"prefix_per_item", &Tuning::prefix_per_item, {4, 8, 16}}};
+    // 256 need more local memory than OpenCL promises, where lights have a size.
+    if (shadows) out.push_back({"shadow_group", &Tuning::shadow_group, {32, 64, 128}});
+    return out;
 }
 
 // Dimensions of drawing triangles in OpenCL.
@@ -164,14 +170,16 @@ double ids_ms(LightingBench& bench, LightingRequest request) {
 
 TuningResult tune(const StoredTuning& start, const DeviceInfo& device,
                   const MeasureTuning& measure) {
-    return descend(start, device, dimensions_of(device), measure);
+    return descend(start, device, dimensions_of(device, true), measure);
 }
 
 TuningResult tune(LightingBench& bench, int runs, const OnTrial& on_trial) {
     LightingRequest request = bench.request();
     request.runs = runs;
-    return tune(built_in_tuning(bench.device()), bench.device(),
-                frames_of(bench, request, on_trial));
+    const DeviceInfo& device = bench.device();
+    return descend(built_in_tuning(device), device,
+                   dimensions_of(device, request.plan.kernels.shadows),
+                   frames_of(bench, request, on_trial));
 }
 
 GeometryTuning tune_geometry(LightingBench& bench, const StoredTuning& start, int runs,

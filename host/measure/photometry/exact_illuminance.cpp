@@ -2,6 +2,7 @@
 #include "host/measure/photometry/exact_illuminance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -44,18 +45,19 @@ Distances distances_to(const Box& box, const glm::dvec3& p) {
     return {glm::length(outside), glm::length(across)};
 }
 
-// A light with a range.
+// A light with a size and a range.
 struct BoundedLight {
     glm::dvec3 position{0.0};
     double candela = 0.0, range = 0.0;
-    double radius = 0.0;                                    // of its size [m]
-    double most = std::numeric_limits<double>::infinity();  // of its illuminance [lx]
+    double radius = 0.0;  // of its size [m]
+    double most = 0.0;    // of its illuminance [lx]
 };
 
 // At most what the range takes away at a distance from the light's middle. Points of the light may
 // be nearer by its radius.
 double loss_at(const BoundedLight& light, double distance) {
-    const double share = std::min(std::pow(distance / light.range, 4.0), 1.0);
+    const double quotient = distance / light.range;
+    const double share = std::min(quotient * quotient * quotient * quotient, 1.0);
     if (share == 0.0) return 0.0;
     const double nearest = std::max(distance - light.radius, 0.0);
     return share * std::min(light.candela / (nearest * nearest), light.most);
@@ -69,15 +71,69 @@ double largest_loss(const BoundedLight& light, const Distances& d) {
                     loss_at(light, std::clamp(light.range, d.least, d.greatest)));
 }
 
-std::vector<BoundedLight> bounded_lights(const Scene& scene) {
-    std::vector<BoundedLight> out;
+// Lights without a size that have a range, a number each in every array, so that compilers make
+// vectors of them.
+class BoundedPoints {
+ public:
+    void add(const SceneLight& light) {
+        position_[0].push_back(light.position.x);
+        position_[1].push_back(light.position.y);
+        position_[2].push_back(light.position.z);
+        candela_.push_back(luminance(glm::dvec3(light.intensity)));
+        range2_.push_back(double{light.range} * light.range);
+    }
+
+    // The sum of what their ranges take away at most at the box's points. With x the square of the
+    // distance it is candela * min(x / range^4, 1 / x): it grows up to the range and falls beyond.
+    double loss(const Box& box) const {
+        constexpr std::size_t kPart = 256;
+        std::array<double, kPart> losses;
+        double sum = 0.0;
+        for (std::size_t first = 0; first < candela_.size(); first += kPart) {
+            const std::size_t count = std::min(kPart, candela_.size() - first);
+            for (std::size_t i = 0; i < count; ++i) losses[i] = loss(box, first + i);
+            for (std::size_t i = 0; i < count; ++i) sum += losses[i];
+        }
+        return sum;
+    }
+
+ private:
+    double loss(const Box& box, std::size_t i) const {
+        double least2 = 0.0, greatest2 = 0.0;
+        for (glm::length_t c = 0; c < 3; ++c) {
+            const double at = position_[static_cast<std::size_t>(c)][i];
+            const double below = box.min[c] - at, above = at - box.max[c];
+            const double outside = std::max(std::max(below, above), 0.0);
+            const double across = std::max(std::abs(below), std::abs(above));
+            least2 += outside * outside;
+            greatest2 += across * across;
+        }
+        const double range2 = range2_[i];
+        const double x = std::min(std::max(range2, least2), greatest2);
+        return x > range2 ? candela_[i] / x : candela_[i] * x / (range2 * range2);
+    }
+
+    std::array<std::vector<double>, 3> position_;
+    std::vector<double> candela_, range2_;
+};
+
+struct BoundedLights {
+    std::vector<BoundedLight> sized;
+    BoundedPoints points;
+};
+
+BoundedLights bounded_lights(const Scene& scene) {
+    BoundedLights out;
     for (const SceneLight& light : scene.lights) {
         if (!kind_of(light).is_placed || !(light.range > 0.0f)) continue;
-        BoundedLight& next = out.emplace_back();
+        if (!is_area_light(light)) {
+            out.points.add(light);
+            continue;
+        }
+        BoundedLight& next = out.sized.emplace_back();
         next.position = light.position;
         next.candela = luminance(glm::dvec3(light.intensity));
         next.range = light.range;
-        if (!is_area_light(light)) continue;
         next.radius = bounding_radius(light);
         next.most = std::numbers::pi * next.candela / seen_area(light);
     }
@@ -150,16 +206,15 @@ std::vector<double> range_loss_bounds(const Scene& scene, std::span<const Measur
                                       std::span<const std::uint32_t> order,
                                       const OnProgress& progress) {
     std::vector<double> out(points.size(), 0.0);
-    const std::vector<BoundedLight> lights = bounded_lights(scene);
-    if (lights.empty()) return out;
+    const BoundedLights lights = bounded_lights(scene);
     const auto groups = static_cast<int>((order.size() + kGroupPoints - 1) / kGroupPoints);
     const auto bound_group = [&](int group) {
         const std::size_t first = static_cast<std::size_t>(group) * kGroupPoints;
         const auto mine = order.subspan(first, std::min(kGroupPoints, order.size() - first));
         Box box;
         for (const std::uint32_t i : mine) box.add(points[i].position);
-        double sum = 0.0;
-        for (const BoundedLight& light : lights) {
+        double sum = lights.points.loss(box);
+        for (const BoundedLight& light : lights.sized) {
             sum += largest_loss(light, distances_to(box, light.position));
         }
         for (const std::uint32_t i : mine) out[i] = sum;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/measure/photometry/measuring_points.h"
 
-#include <tbb/parallel_invoke.h>
-
 #include <algorithm>
 #include <numeric>
 
+#include "host/base/system/parallel.h"
 #include "host/scene/scene.h"
 
 namespace kilolux {
@@ -25,8 +24,8 @@ void halve_points(std::span<const MeasuringPoint> points, std::span<std::uint32_
                          return x < y || (x == y && a < b);
                      });
     const auto split = static_cast<std::size_t>(middle);
-    tbb::parallel_invoke([&] { halve_points(points, order.first(split)); },
-                         [&] { halve_points(points, order.subspan(split)); });
+    parallel_invoke([&] { halve_points(points, order.first(split)); },
+                    [&] { halve_points(points, order.subspan(split)); });
 }
 
 }  // namespace

@@ -18,10 +18,12 @@ constexpr uint kFrameTiles = 16;  // across
 constexpr std::size_t kFramePoints = kGroupPoints * kFrameTiles * kFrameTiles;
 static_assert(kGroupPoints == FINE_TILE_PIXELS);
 
-// All lights are the scene's, each with its own range or none.
+// All lights are the scene's, each with its own range or none, and with the intensity that it has.
 RenderSettings light_settings(RenderSettings settings) {
     settings.lights = {};
     settings.lights.count = 0;
+    settings.light_mix = {};
+    settings.light_groups.clear();
     settings.tails = Tails::exact;
     settings.shading = Shading::lambert;
     settings.shadows = Shadows::off;

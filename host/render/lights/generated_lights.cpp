@@ -30,6 +30,8 @@ void GeneratedLights::set(const LightOptions& options, const Scene& scene, doubl
         }
         drift_.set(made.swarm(), options.count);
         count_ = options.count;
+    } else if (generator_->gain() != made.gain()) {
+        drift_.set(made.swarm(), count_);
     }
     time_ = time;
     generator_ = made;

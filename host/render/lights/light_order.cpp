@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/render/lights/light_order.h"
 
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <tuple>
 
 #include "host/base/light_cells.h"
+#include "host/base/system/parallel.h"
 #include "host/scene/lights/light_kinds.h"
 
 namespace kilolux {
@@ -41,7 +40,7 @@ std::vector<std::uint32_t> order_by_place(std::span<const SceneLight> lights) {
     for (std::size_t i = 0; i < lights.size(); ++i) {
         places[i] = place_of(lights[i], static_cast<std::uint32_t>(i));
     }
-    tbb::parallel_sort(places);
+    parallel_sort(places);
     std::vector<std::uint32_t> order(lights.size());
     std::transform(places.begin(), places.end(), order.begin(),
                    [](const Place& place) { return place.light; });

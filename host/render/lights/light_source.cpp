@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/render/lights/light_source.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 
+#include "host/base/system/parallel.h"
 #include "host/render/lights/light_order.h"
 #include "host/scene/lights/light_kinds.h"
 #include "host/scene/lights/rig.h"
@@ -41,12 +40,13 @@ uint tail_seed(const RenderSettings& settings, uint sample) {
 
 std::vector<SceneLight> lights_at(const Scene& scene, const RenderSettings& settings,
                                   const Camera& camera, double time) {
-    std::vector<SceneLight> own = scene.lights;
+    std::vector<SceneLight> own = mixed_lights(scene, settings.light_mix);
     for (SceneLight& light : own) light = placed_light(light, camera);
     const Tails tails = tails_for(scene.lights, settings.tails, settings.range_budget);
     fill_missing_ranges(own, tails == Tails::stochastic ? Tails::exact : tails,
                         settings.range_budget);
-    const std::vector<SceneLight> generated = generate_lights(settings.lights, scene, time);
+    const std::vector<SceneLight> generated =
+        generate_lights(mixed_generated(settings.lights, scene, settings.light_mix), scene, time);
     own.insert(own.end(), generated.begin(), generated.end());
     return own;
 }
@@ -55,14 +55,12 @@ LightSource::LightSource(const Gpu& gpu, const Tuning& tuning, const Scene& scen
                          const RenderSettings& settings)
     : gpu_(gpu),
       scene_(scene),
-      revision_(scene.revisions.lights),
       surfaces_(scene.revisions.surfaces()),
       tails_(tails_for(scene.lights, settings.tails, settings.range_budget)),
       range_budget_(settings.range_budget),
-      options_(settings.lights),
+      mix_(settings.light_mix),
+      asked_options_(settings.lights),
       generated_(gpu, tuning),
-      own_(scene.lights),
-      headlights_(headlights_of(own_)),
       move_(gpu, tuning),
       directional_(gpu, "lights"),
       profile_starts_(profile_starts(scene.webs)),
@@ -73,15 +71,13 @@ LightSource::LightSource(const Gpu& gpu, const Tuning& tuning, const Scene& scen
       uploaded_tables_(gpu, "lights"),
       nodes_(gpu, "lights") {
     if (!scene.aimed_profiles.empty()) upload_tables();
-    fill_missing_ranges(own_, tails_, range_budget_);
     input_.seed = tail_seed(settings, 0);
 }
 
 void LightSource::set_generated(const LightOptions& generated) {
-    if (generated == options_) return;
-    options_ = generated;
-    time_.reset();
-    is_ordered_ = false;
+    if (generated == asked_options_) return;
+    asked_options_ = generated;
+    revision_.reset();
 }
 
 void LightSource::set_tails(const RenderSettings& settings) {
@@ -100,6 +96,13 @@ void LightSource::set_groups(const std::vector<LightGroup>& groups) {
     is_ordered_ = false;
 }
 
+void LightSource::set_mix(const GroupMix& mix) {
+    if (mix == mix_) return;
+    mix_ = mix;
+    revision_.reset();
+    tree_revision_.reset();  // its nodes are sums of intensities
+}
+
 // Takes over the scene's own lights where they changed.
 void LightSource::take_up_changes() {
     const SceneRevisions& now = scene_.revisions;
@@ -107,7 +110,8 @@ void LightSource::take_up_changes() {
     if (std::exchange(surfaces_, now.surfaces()) != now.surfaces()) time_.reset();
     if (revision_ == now.lights) return;
     revision_ = now.lights;
-    own_ = scene_.lights;
+    options_ = mixed_generated(asked_options_, scene_, mix_);
+    own_ = mixed_lights(scene_, mix_, mix_groups_);
     fill_missing_ranges(own_, tails_, range_budget_);
     headlights_ = headlights_of(own_);
     headlight_camera_.reset();
@@ -118,7 +122,11 @@ void LightSource::take_up_changes() {
 void LightSource::place_headlights(const Camera& camera) {
     if (headlights_.empty() || headlight_camera_ == camera) return;
     headlight_camera_ = camera;
-    for (const std::size_t i : headlights_) own_[i] = placed_light(scene_.lights[i], camera);
+    for (const std::size_t i : headlights_) {
+        const glm::vec3 intensity = own_[i].intensity;  // as the mix has it
+        own_[i] = placed_light(scene_.lights[i], camera);
+        own_[i].intensity = intensity;
+    }
     fill_missing_ranges(own_, tails_, range_budget_);
     time_.reset();
     is_ordered_ = false;
@@ -182,7 +190,7 @@ template <typename Row>
 DeviceArray<Row> LightSource::upload_extras(GrowingArray<Row>& to, const Row& drifting_row,
                                             auto&& row_of) {
     std::vector<Row> rows(row_count(), drifting_row);
-    tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
+    parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
         const bool drifts = i >= order_.size() && i < list_count();
         if (!drifts) rows[i] = row_of(light(i));
     });
@@ -193,14 +201,13 @@ DeviceArray<Row> LightSource::upload_extras(GrowingArray<Row>& to, const Row& dr
 
 // Uploads the groups of all lights, the directional ones last.
 void LightSource::upload_groups() {
-    std::vector<std::uint8_t> rows(row_count(), group_of(drifting_light(), scene_, light_groups_));
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        const bool drifts = i >= order_.size() && i < list_count();
-        if (!drifts) rows[i] = group_of(light(i), scene_, light_groups_);
+    const std::vector<std::uint8_t>& own = group_numbers_.of(scene_, light_groups_);
+    std::vector<std::uint8_t> rows(row_count(),
+                                   group_of(generated_light(options_), scene_, light_groups_));
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+        if (order_[i] < own.size()) rows[i] = own[order_[i]];
     }
-    for (const std::uint32_t number : directional_order_) {
-        rows.push_back(group_of(own_[number], scene_, light_groups_));
-    }
+    for (const std::uint32_t number : directional_order_) rows.push_back(own[number]);
     input_.extras.groups = groups_.reserve(rows.size());
     kilolux::upload<std::uint8_t>(gpu_, *input_.extras.groups, rows);
 }
@@ -218,7 +225,7 @@ void LightSource::upload() {
         input_.extras.shapes = upload_extras(shapes_, shape_row(drifting_light()), shape_row);
     }
     const std::span<WorldLight> rows = move_.stage(row_count() - drifting());
-    tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
+    parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
         rows[i] = world_light(light(i < order_.size() ? i : i + drifting()));
     });
     move_.upload(order_.size(), drifting());
@@ -247,7 +254,7 @@ void LightSource::update(double time, const Camera& camera, FrameStats& stats) {
         input_camera_.reset();
         is_drifted_ = false;
     }
-    const bool is_far = options_.count > 0 && !drifts_near(camera.position);
+    const bool is_far = generates() && !drifts_near(camera.position);
     const bool is_stale = !is_ordered_ || is_far_ != is_far || (is_far && has_moved) ||
                           (order_camera_ && *order_camera_ != camera.position) ||
                           (!order_camera_ && !is_near(camera.position));
@@ -286,7 +293,7 @@ LightInput LightSource::input(const glm::dvec3& camera_position, bool reuse, Sta
 LightRows LightSource::rows(const glm::dvec3& camera_position) {
     if (drifting() > 0) generated_.read_order();
     std::vector<SceneLight> lights(row_count());
-    tbb::parallel_for(std::size_t{0}, row_count(), [&](std::size_t i) { lights[i] = light(i); });
+    parallel_for(std::size_t{0}, row_count(), [&](std::size_t i) { lights[i] = light(i); });
     for (const std::uint32_t number : directional_order_) lights.push_back(own_[number]);
     LightRows out = make_light_rows(lights, camera_position);
     if (has_area_lights()) out.shapes.resize(out.local.size());  // points, where none is usable

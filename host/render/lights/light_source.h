@@ -18,9 +18,9 @@
 
 namespace kilolux {
 
-/// All lights of a scene at `time` [s], its own and then the generated ones, each with a range;
-/// `camera` has the headlights. Random ranges reach everywhere here, as in the
-/// mean.
+/// All lights of a scene at `time` [s], its own and then the generated ones, each with a range and
+/// the intensity of settings.light_mix; `camera` has the headlights. Random ranges reach everywhere
+/// here, as in the mean.
 std::vector<SceneLight> lights_at(const Scene& scene, const RenderSettings& settings,
                                   const Camera& camera, double time);
 
@@ -46,8 +46,11 @@ class LightSource {
     /// Replaces the ranges of lights that lack one.
     void set_tails(const RenderSettings& settings);
 
-    /// Replaces the groups that lights are in.
+    /// Replaces the groups of layers that lights are in.
     void set_groups(const std::vector<LightGroup>& groups);
+
+    /// Replaces the gains of groups of lights.
+    void set_mix(const GroupMix& mix);
 
     /// The lights at `time` [s] of the scene as it is now; sets their counts, and how many rows
     /// were uploaded. The camera places the headlights, and its position decides which lights are
@@ -67,7 +70,8 @@ class LightSource {
     SceneLight light(std::size_t place) const;
     std::size_t list_count() const { return order_.size() + drifting(); }
     std::size_t row_count() const { return list_count() + tree_.lights.size(); }
-    std::size_t drifting() const { return is_far_ ? 0 : generated_.count(); }
+    bool generates() const { return options_.count > 0 && options_.gain != glm::vec3(0.0f); }
+    std::size_t drifting() const { return is_far_ || !generates() ? 0 : generated_.count(); }
     bool drifts_near(const glm::dvec3& camera_position) const;
     void find_order(const glm::dvec3& camera_position);
     void plant_tree(const std::vector<std::uint32_t>& members);
@@ -85,7 +89,9 @@ class LightSource {
     std::array<std::uint32_t, 2> surfaces_;  // of the scene that generated lights are placed in
     Tails tails_;
     double range_budget_;
-    LightOptions options_;
+    GroupMix mix_;
+    GroupNumbers mix_groups_;
+    LightOptions asked_options_, options_;  // options_: with the gain of mix_
     GeneratedLights generated_;
     std::vector<SceneLight> own_;             // with ranges, in the world
     std::vector<std::size_t> headlights_;     // those of own_ that follow the camera
@@ -108,7 +114,8 @@ class LightSource {
     GrowingArray<AimedProfile> profiles_;
     GrowingArray<LightShape> shapes_;
     GrowingArray<std::uint8_t> groups_;
-    std::vector<LightGroup> light_groups_;
+    std::vector<LightGroup> light_groups_;  // of layers
+    GroupNumbers group_numbers_;            // in these
     GrowingArray<float> uploaded_tables_;
     // With Tails::tree, the lights that are in no list: their rows follow those of order_.
     LightTree tree_;

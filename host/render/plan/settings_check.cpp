@@ -78,10 +78,14 @@ void check_view(const RenderSettings& settings) {
 void check_light_groups(const RenderSettings& settings) {
     if (settings.light_groups.empty()) return;
     if (is_forward(settings.renderer)) {
-        throw UsageError("light groups: the forward renderers have none; take --renderer deferred");
+        throw UsageError(
+            "light groups: the forward renderers have no layers; take --renderer deferred, or "
+            "--no-light-layers");
     }
     if (settings.auto_samples.on) {
-        throw UsageError("light groups: not with --samples auto; give a number of samples");
+        throw UsageError(
+            "light groups: no layers with --samples auto; give a number of samples, or take "
+            "--no-light-layers");
     }
 }
 

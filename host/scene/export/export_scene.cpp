@@ -8,12 +8,12 @@
 #include <set>
 
 #include "host/base/error.h"
+#include "host/base/system/parallel.h"
 #include "host/base/text.h"
 #include "host/scene/export/buffer.h"
 #include "host/scene/export/materials.h"
 #include "host/scene/export/nodes.h"
 #include "host/scene/export/parts.h"
-#include "host/scene/gltf/parallel.h"
 
 namespace kilolux {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/generated/bake.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+
+#include "host/base/system/parallel.h"
 
 namespace kilolux {
 namespace {
@@ -29,7 +29,7 @@ void put(Image& image, std::size_t texel, const glm::dvec3& c) {
 
 // Calls `each(x, y, texel)`, rows on all cores.
 void each_texel(int size, const auto& each) {
-    tbb::parallel_for(0, size, [&](int y) {
+    parallel_for(0, size, [&](int y) {
         for (int x = 0; x < size; ++x) each(x, y, static_cast<std::size_t>(y * size + x));
     });
 }

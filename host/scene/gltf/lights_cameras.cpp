@@ -69,6 +69,12 @@ SceneLight convert_light(const GltfDocument& document, std::size_t e, std::size_
     return out;
 }
 
+// The text `group` of extras, which may hold anything; empty without one.
+std::string group_in(const tinygltf::Value& extras) {
+    if (!extras.Has("group") || !extras.Get("group").IsString()) return "";
+    return extras.Get("group").Get<std::string>();
+}
+
 // Says what is wrong with the radius in a light's extras; empty where nothing is.
 std::string radius_problem(const json& source, std::string_view extension) {
     const json* radius = find_member(source, "extras.radius");
@@ -101,6 +107,17 @@ void report_problems(const GltfDocument& document, const ProblemOf& problem_of) 
     }
     if (first.empty()) return;
     document.leave_out(more == 0 ? first : fmt::format("{}; likewise {} more", first, more));
+}
+
+// The text extras.group of a photometric file's light object; empty without one.
+std::string profile_group(const GltfDocument& document, const tinygltf::Value& use) {
+    const auto* extension = find_extension(document.model.extensions, kPhotometric);
+    if (extension == nullptr || !extension->Has("lights")) return "";
+    const tinygltf::Value& lights = extension->Get("lights");
+    const int light = member_or(use, "light", 0);
+    if (light < 0 || static_cast<std::size_t>(light) >= lights.ArrayLen()) return "";
+    const tinygltf::Value& source = lights.Get(light);
+    return source.Has("extras") ? group_in(source.Get("extras")) : "";
 }
 
 constexpr double kLeastAxesSine = 1e-6;  // of the angle between a camera's axes
@@ -192,7 +209,9 @@ std::vector<LightNode> read_light_nodes(const GltfDocument& document) {
     std::vector<LightNode> out(document.model.nodes.size());
     for (std::size_t n = 0; n < out.size(); ++n) {
         const tinygltf::Node& node = document.model.nodes[n];
-        bool has_light = find_extension(node.extensions, kPhotometric) != nullptr;
+        const auto* profile = find_extension(node.extensions, kPhotometric);
+        bool has_light = profile != nullptr;
+        if (has_light) out[n].group = profile_group(document, *profile);
         for (std::size_t e = 0; e < kLightExtensions.size(); ++e) {
             const auto* use = find_extension(node.extensions, std::string(kLightExtensions[e]));
             if (use == nullptr || !use->Has("light")) continue;
@@ -203,7 +222,7 @@ std::vector<LightNode> read_light_nodes(const GltfDocument& document) {
         }
         if (!has_light) continue;
         out[n].name = node.name;
-        const std::string group = member_or<std::string>(node.extras, "group", "");
+        const std::string group = group_in(node.extras);
         if (!group.empty()) out[n].group = group;
     }
     return out;

@@ -2,7 +2,6 @@
 #include "host/scene/lights/environment.h"
 
 #include <fmt/core.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +13,7 @@
 #include "host/base/error.h"
 #include "host/base/formats/srgb.h"
 #include "host/base/system/memory.h"
+#include "host/base/system/parallel.h"
 #include "host/images/images.h"
 #include "host/scene/lights/light_side.h"
 #include "host/scene/lights/radiance_header.h"
@@ -176,7 +176,7 @@ Environment painted_environment(
     int height, const std::function<glm::dvec3(const glm::dvec3& direction)>& radiance) {
     Environment out{2 * height, height, {}};
     out.rows.resize(out.place(0, height));
-    tbb::parallel_for(0, height, [&](int y) {
+    parallel_for(0, height, [&](int y) {
         for (int x = 0; x < out.width; ++x) {
             out.rows[out.place(x, y)] = glm::vec3(radiance(out.direction(x, y)));
         }

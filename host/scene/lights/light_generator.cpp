@@ -4,7 +4,6 @@
 #include "host/scene/lights/light_generator.h"
 
 #include <fmt/core.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +13,7 @@
 #include "host/base/error.h"
 #include "host/base/light_cells.h"
 #include "host/base/point_pair.h"
+#include "host/base/system/parallel.h"
 #include "host/scene/lights/light_kinds.h"
 
 namespace kilolux {
@@ -167,6 +167,7 @@ LightSwarm make_swarm(const LightOptions& options, const std::vector<Box>& parts
                    low_half(options.seed),
                    static_cast<float>(options.intensity),
                    static_cast<uint>(parts.size()),
+                   {options.gain.x, options.gain.y, options.gain.z, 0.0f},
                    {}};
     double all = 0.0, sum = 0.0;
     for (const Box& part : parts) all += volume(part);
@@ -230,7 +231,7 @@ SceneLight LightGenerator::operator[](std::uint64_t light) const {
         const double at = box.min[axis] + share * (box.max[axis] - box.min[axis]);
         out.position[axis] = std::clamp(at, box.min[axis], box.max[axis]);
     }
-    const float4 intensity = drift_intensity(drift);
+    const float4 intensity = drift_intensity(&swarm_, drift);
     out.intensity = {intensity.x, intensity.y, intensity.z};
     out.range = static_cast<float>(options_.radius);
     out.radius = static_cast<float>(options_.size);
@@ -246,10 +247,8 @@ std::vector<SceneLight> generate_lights(const LightOptions& options, const Scene
                                         double time) {
     const LightGenerator generator(options, scene, time);
     std::vector<SceneLight> lights(options.count);
-    const auto fill = [&](const tbb::blocked_range<std::uint64_t>& range) {
-        for (std::uint64_t i = range.begin(); i < range.end(); ++i) lights[i] = generator[i];
-    };
-    tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, options.count, kLightsAtOnce), fill);
+    const auto fill = [&](std::uint64_t i) { lights[i] = generator[i]; };
+    parallel_for(std::uint64_t{0}, options.count, fill, kLightsAtOnce);
     return lights;
 }
 

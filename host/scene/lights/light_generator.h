@@ -19,9 +19,10 @@ struct LightOptions {
     std::uint64_t seed = 1;
     double radius = 0.0;  // range [m]; 0: automatic, from the box and the count
     double intensity =
-        0.0;            // brightest colour channel [cd]; 0: automatic, well exposed at any count
-    double size = 0.0;  // radius of spheres [m]; 0: points
-    Box box;            // empty: see light_region()
+        0.0;               // brightest colour channel [cd]; 0: automatic, well exposed at any count
+    double size = 0.0;     // radius of spheres [m]; 0: points
+    Box box;               // empty: see light_region()
+    glm::vec3 gain{1.0f};  // factors of the intensity: see mixed_generated()
     bool operator==(const LightOptions&) const = default;
 };
 
@@ -49,10 +50,13 @@ class LightGenerator {
     /// The boxes that lights stay in: LightDrift::high.w.
     const std::vector<Box>& parts() const { return parts_; }
 
-    /// Whether both make the same lights, at whatever time.
+    /// Whether both make the same lights, at whatever time, but for their gain.
     bool has_paths_of(const LightGenerator& other) const {
-        return options_ == other.options_ && parts_ == other.parts_;
+        LightOptions options = options_;
+        options.gain = other.options_.gain;
+        return options == other.options_ && parts_ == other.parts_;
     }
+    const glm::vec3& gain() const { return options_.gain; }
 
  private:
     LightOptions options_;    // nothing automatic but the box

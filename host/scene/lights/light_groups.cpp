@@ -126,13 +126,6 @@ std::string name_of_light(const Scene& scene, int node, std::set<std::string>& t
     return name;
 }
 
-// A light that is in the groups of the generated ones.
-SceneLight kind_of_generated(const LightOptions& options) {
-    SceneLight out;
-    if (options.size > 0.0) out.type = LightType::sphere;
-    return out;
-}
-
 std::vector<LightGroup> group_of_each(const Scene& scene) {
     std::vector<LightGroup> out;
     std::set<std::string> taken;
@@ -195,7 +188,7 @@ std::vector<LightGroup> light_groups_of(const Scene& scene, const LightOptions& 
     }
     std::vector<std::size_t> lights(out.size() + 1);
     for (const SceneLight& light : scene.lights) ++lights[group_of(light, scene, out)];
-    if (generated.count > 0) ++lights[group_of(kind_of_generated(generated), scene, out)];
+    if (generated.count > 0) ++lights[group_of(generated_light(generated), scene, out)];
     for (std::size_t i = 0; i < out.size(); ++i) {
         if (lights[i + 1] > 0) continue;
         throw UsageError(fmt::format("light groups: no light is in '{}' ({})", out[i].name,
@@ -210,6 +203,35 @@ std::uint8_t group_of(const SceneLight& light, const Scene& scene,
         if (is_in(light, scene, groups[i])) return static_cast<std::uint8_t>(i + 1);
     }
     return 0;
+}
+
+SceneLight generated_light(const LightOptions& options) {
+    SceneLight out;
+    if (options.size > 0.0) out.type = LightType::sphere;
+    return out;
+}
+
+GroupNumbers::Asked GroupNumbers::asked_of(const SceneLight& light, const Scene& scene) {
+    const bool has_web = light.profile >= 0;
+    const auto profile = static_cast<std::size_t>(light.profile);
+    return {light.node, has_web ? static_cast<int>(scene.aimed_profiles[profile].web) : -1,
+            light.type, light.of_surface};
+}
+
+const std::vector<std::uint8_t>& GroupNumbers::of(const Scene& scene,
+                                                  const std::vector<LightGroup>& groups) {
+    if (groups != groups_) asked_.clear();
+    groups_ = groups;
+    numbers_.resize(scene.lights.size());
+    std::vector<Asked> asked;
+    asked.reserve(numbers_.size());
+    for (std::size_t i = 0; i < numbers_.size(); ++i) {
+        asked.push_back(asked_of(scene.lights[i], scene));
+        const bool is_known = i < asked_.size() && asked_[i] == asked[i];
+        if (!is_known) numbers_[i] = group_of(scene.lights[i], scene, groups);
+    }
+    asked_ = std::move(asked);
+    return numbers_;
 }
 
 }  // namespace kilolux

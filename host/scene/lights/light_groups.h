@@ -44,4 +44,28 @@ std::vector<LightGroup> light_groups_of(const Scene& scene, const LightOptions& 
 std::uint8_t group_of(const SceneLight& light, const Scene& scene,
                       std::span<const LightGroup> groups);
 
+/// A light that is in the groups of the generated ones.
+SceneLight generated_light(const LightOptions& options);
+
+/// group_of() each light of a scene that changes.
+class GroupNumbers {
+ public:
+    /// [scene.lights.size()], valid until the next call. Matches patterns again only where groups,
+    /// or what patterns ask of lights, have changed.
+    const std::vector<std::uint8_t>& of(const Scene& scene, const std::vector<LightGroup>& groups);
+
+ private:
+    struct Asked {  // by patterns
+        int node = -1, web = -1;
+        LightType type{};
+        bool of_surface = false;
+        bool operator==(const Asked&) const = default;
+    };
+    static Asked asked_of(const SceneLight& light, const Scene& scene);
+
+    std::vector<LightGroup> groups_;
+    std::vector<Asked> asked_;
+    std::vector<std::uint8_t> numbers_;
+};
+
 }  // namespace kilolux

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/lights/light_tree.h"
 
-#include <tbb/parallel_invoke.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numeric>
 
+#include "host/base/system/parallel.h"
 #include "host/scene/lights/light_kinds.h"
 #include "host/scene/lights/light_ranges.h"
 
@@ -45,7 +44,7 @@ class Builder {
         const auto build_left = [&] { build(left, place + 1); };
         const auto build_right = [&] { build(right, place + 2 * left.size()); };
         if (members.size() > kTaskLights) {
-            tbb::parallel_invoke(build_left, build_right);
+            parallel_invoke(build_left, build_right);
         } else {
             build_left();
             build_right();

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/lights/prefiltered_environment.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include "host/base/system/parallel.h"
 
 namespace kilolux {
 namespace {
@@ -49,7 +48,7 @@ Environment resampled(const Environment& from, int height) {
     const double step = std::numbers::pi / from.height;
     Environment out{2 * height, height, {}};
     out.rows.resize(out.place(0, height));
-    tbb::parallel_for(0, height, [&](int y) {
+    parallel_for(0, height, [&](int y) {
         const Covered rows = covered(y, height, from.height);
         for (int x = 0; x < out.width; ++x) {
             const Covered columns = covered(x, out.width, from.width);
@@ -209,7 +208,7 @@ double diffuse_loss(double n_dot_v) {
 
 std::vector<float> reflectance_table() {
     std::vector<float> table(std::size_t{3} * kTableSize * kTableSize);
-    tbb::parallel_for(0u, kTableSize, [&](unsigned column) {
+    parallel_for(0u, kTableSize, [&](unsigned column) {
         const double n_dot_v = std::max(column / (kTableSize - 1.0), kNDotVMin);
         const double loss = diffuse_loss(n_dot_v);
         for (unsigned row = 0; row < kTableSize; ++row) {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/rows/mip_levels.h"
 
-#include <tbb/parallel_for.h>
-
 #include "host/base/formats/mips.h"
+#include "host/base/system/parallel.h"
 #include "kernels/shared/mips.h"
 
 namespace kilolux {
@@ -14,7 +13,7 @@ void next_level(const std::uint64_t* above, uint above_width, uint above_height,
                 std::uint64_t* level) {
     const uint width = halved(above_width);
     const uint height = halved(above_height);
-    tbb::parallel_for(0u, height, [&](uint y) {
+    parallel_for(0u, height, [&](uint y) {
         const MipTaps t = mip_taps(y, height, above_height);
         const std::uint64_t* top = above + std::size_t{t.first} * above_width;
         const std::uint64_t* bottom = above + std::size_t{t.second} * above_width;
@@ -32,7 +31,7 @@ std::vector<std::uint64_t> first_level(const Image& image, bool srgb) {
     const auto decoded = linear_codes(srgb);
     const auto width = static_cast<std::size_t>(image.width);
     std::vector<std::uint64_t> out(width * static_cast<std::size_t>(image.height));
-    tbb::parallel_for(0, image.height, [&](int y) {
+    parallel_for(0, image.height, [&](int y) {
         const std::size_t first = static_cast<std::size_t>(y) * width;
         for (std::size_t i = first; i < first + width; ++i) {
             if (image.rgba.empty()) {

@@ -15,13 +15,13 @@ constexpr std::size_t kSumsOfShare = 4;  // a ulong4
 }  // namespace
 
 CountPairs::CountPairs(const Gpu& gpu, const Tuning& tuning)
-    : gpu_(gpu),
-      group_(std::min(tuning.light_group, kLargestGroup)),
+    : group_(std::min(tuning.light_group, kLargestGroup)),
       program_(build_program(gpu, kCountPairsStage, BuildOptions().define("GROUP", group_))),
       sum_shares_(gpu, program_, kCountPairsStage, "count_pairs_sum_shares"),
       gather_(gpu, program_, kCountPairsStage, "count_pairs"),
       shares_(gpu, kCountPairsStage),
-      counts_(gpu, kCountPairsStage) {
+      counts_(gpu, kCountPairsStage),
+      copy_(gpu) {
     shares_.reserve(kShares * kSumsOfShare);
     counts_.reserve(1);
 }
@@ -36,6 +36,7 @@ DeviceArray<PairCounts> CountPairs::enqueue(const ListTotals& totals,
     }
     gather_.enqueue(groups(1, group_), timer, totals.coarse_pairs, totals.active_clusters,
                     totals.refine_tests, shares_.get(), share_count, counts_.get());
+    copy_.start(counts_.get(), kCountPairsStage, timer);
     return counts_.get();
 }
 

@@ -4,6 +4,7 @@
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/memory/host_value.h"
 #include "host/gpu/stage_info.h"
 
 namespace kilolux {
@@ -17,10 +18,12 @@ struct ListTotals {
     DeviceArray<std::uint64_t> refine_tests;     // RefineLights::total()
 };
 
-/// Gathers the totals of a frame's lists and the sums over its active clusters in one place, so
-/// that one read of 48 bytes shows whether the lists fit and what they hold:
+/// Gathers the totals of a frame's lists and the sums over its active clusters in one place, and
+/// copies their 48 bytes to the host, which show whether the lists fit and what they hold:
 ///
-///     const PairCounts counts = count_pairs.read();  // the frame's only wait
+///     count_pairs.enqueue(...);
+///     ...                                            // what the device does meanwhile
+///     const PairCounts counts = count_pairs.read();  // waits for the counts
 ///     const bool coarse = cull.fits(counts.coarse_pairs), active =
 ///     bin.fits(counts.active_clusters); const bool complete = coarse && active &&
 ///     refine.fits(counts.refine_tests);
@@ -33,16 +36,16 @@ class CountPairs {
     DeviceArray<PairCounts> enqueue(const ListTotals& totals, const ActiveClusters& clusters,
                                     bool sums, StageTimer& timer);
 
-    /// The counts of the last enqueue. Blocks.
-    PairCounts read() const { return download(gpu_, counts_.get()).front(); }
+    /// The counts of the last enqueue. Waits for them.
+    PairCounts read() const { return copy_.get(); }
 
  private:
-    Gpu gpu_;
     int group_;
     KernelProgram program_;
     Kernel sum_shares_, gather_;
     GrowingArray<std::uint64_t> shares_;
     GrowingArray<PairCounts> counts_;
+    HostValue<PairCounts> copy_;
 };
 
 }  // namespace kilolux

@@ -8,6 +8,10 @@
 namespace kilolux {
 namespace {
 
+// Counts of earlier blocks that a work-item of the last block loads, at most, in one launch; beyond
+// it three launches are faster (NVIDIA H200).
+constexpr std::size_t kMostLoads = 256;
+
 BuildOptions options_of(const Tuning& tuning) {
     return BuildOptions()
         .define("GROUP", tuning.prefix_group)
@@ -19,7 +23,7 @@ BuildOptions options_of(const Tuning& tuning) {
 PrefixSum::PrefixSum(const Gpu& gpu, const Tuning& tuning, std::string_view stage)
     : tuning_(tuning),
       program_(build_program(gpu, "prefix_sum", options_of(tuning))),
-      one_block_(gpu, program_, stage, "prefix_sum_one_block"),
+      few_(gpu, program_, stage, "prefix_sum_few"),
       sum_blocks_(gpu, program_, stage, "prefix_sum_blocks"),
       scan_totals_(gpu, program_, stage, "prefix_sum_totals"),
       apply_(gpu, program_, stage, "prefix_sum_apply"),
@@ -34,8 +38,9 @@ void PrefixSum::enqueue(const DeviceArray<uint>& counts, uint n, const DeviceArr
                        static_cast<std::size_t>(tuning_.prefix_per_item);
     const std::size_t blocks = std::max<std::size_t>((n + block - 1) / block, 1);
     const WorkSize size = groups(blocks, tuning_.prefix_group);
-    if (blocks == 1) {
-        one_block_.enqueue(size, timer, counts, n, offsets, total_.get());
+    const std::size_t loads = (blocks - 1) * static_cast<std::size_t>(tuning_.prefix_per_item);
+    if (loads <= kMostLoads) {
+        few_.enqueue(size, timer, counts, n, offsets, total_.get());
         return;
     }
     const DeviceArray<std::uint64_t> sums = block_sums_.reserve(blocks);
@@ -54,12 +59,20 @@ CountedList::CountedList(const Gpu& gpu, const Tuning& tuning, std::string_view 
       prefix_sum_(gpu, tuning, stage),
       counts_(gpu, stage),
       offsets_(gpu, stage),
-      entries_(gpu, stage) {}
+      entries_(gpu, stage),
+      total_(gpu) {}
 
 DeviceArray<uint> CountedList::enqueue_offsets(uint n, StageTimer& timer) {
     DeviceArray<uint> offsets = offsets_.reserve(n + std::size_t{1});
     prefix_sum_.enqueue(counts_.get(), n, offsets, timer);
+    total_.drop();
     return offsets;
+}
+
+void CountedList::start_read(StageTimer& timer) { total_.start(total(), stage_, timer); }
+
+std::uint64_t CountedList::read_total() const {
+    return total_.is_started() ? total_.get() : download(gpu_, total()).front();
 }
 
 uint CountedList::capacity() const {

@@ -4,6 +4,7 @@
 #include "host/gpu/buffer.h"
 #include "host/gpu/features.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/memory/host_value.h"
 #include "host/gpu/stage_info.h"
 
 namespace kilolux {
@@ -13,7 +14,7 @@ namespace kilolux {
 inline StageWork prefix_sum_work(double counts) {
     return {.bytes_read = 2.0 * kWordBytes * counts,
             .bytes_written = kWordBytes * counts,
-            .launches = 1};  // more than one block takes three
+            .launches = 1};  // many blocks take three
 }
 
 /// Exclusive prefix sum of uint counts on the device.
@@ -33,7 +34,7 @@ class PrefixSum {
  private:
     Tuning tuning_;
     KernelProgram program_;
-    Kernel one_block_, sum_blocks_, scan_totals_, apply_;
+    Kernel few_, sum_blocks_, scan_totals_, apply_;
     GrowingArray<std::uint64_t> block_sums_, total_;
 };
 
@@ -63,8 +64,10 @@ class CountedList {
 
     /// Entries that the last prefix sum counted: one element on the device. Blocks nothing.
     DeviceArray<std::uint64_t> total() const { return prefix_sum_.total(); }
-    /// The same on the host. Blocks.
-    std::uint64_t read_total() const { return download(gpu_, total()).front(); }
+    /// Starts to copy it to the host, without a wait: read_total() then waits only for the copy.
+    void start_read(StageTimer& timer);
+    /// The same number on the host. Blocks.
+    std::uint64_t read_total() const;
 
     /// True if there is room for `entries`, the total of the last enqueue; else makes room, with an
     /// eighth more where it fits, so that moving lights do not grow it frame by frame. Throws Error
@@ -78,6 +81,7 @@ class CountedList {
     PrefixSum prefix_sum_;
     GrowingArray<uint> counts_, offsets_;
     GrowingBuffer entries_;
+    HostValue<std::uint64_t> total_;
 };
 
 }  // namespace kilolux

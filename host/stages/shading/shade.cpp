@@ -20,7 +20,7 @@ struct ShadingOutput {
     }
 };
 
-// SHADOWS of kernels/shading/sum_lights.h.
+// SHADOWS of kernels/shading/light_set.h.
 constexpr int kShadowBits = 1;
 constexpr int kShadowRays = 2;
 

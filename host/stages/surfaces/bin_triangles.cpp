@@ -2,6 +2,8 @@
 #include "host/stages/surfaces/bin_triangles.h"
 
 #include <algorithm>
+#include <utility>
+
 #include "kernels/shared/surface_scene.h"
 
 namespace kilolux {
@@ -44,7 +46,6 @@ BinTriangles::BinTriangles(const Gpu& gpu, const Tuning& tuning)
     : gpu_(gpu),
       tuning_(tuning),
       program_(build_program(gpu, kBinTrianglesStage, bin_options(gpu, tuning))),
-      clear_(gpu, program_, kBinTrianglesStage, "bin_triangles_clear"),
       set_up_(gpu, program_, kBinTrianglesStage, "bin_triangles_set_up"),
       offset_(gpu, program_, kBinTrianglesStage, "bin_triangles_offset"),
       fill_(gpu, program_, kBinTrianglesStage, "bin_triangles_fill"),
@@ -63,6 +64,15 @@ void BinTriangles::close_tiles(std::span<const std::uint8_t> closed) {
     if (!closed.empty()) upload<std::uint8_t>(gpu_, closed_.reserve(closed.size()), closed);
 }
 
+// The counters of tiles that work-groups share: 0 unless an enqueue() ended between its kernels.
+DeviceArray<uint> BinTriangles::zero_counts(uint tiles) {
+    const std::size_t zero_bytes = std::exchange(zero_bytes_, 0);  // until they are 0 again
+    const DeviceArray<uint> counts = lists_.counts(tiles);
+    const auto bytes = counts.buffer().getInfo<CL_MEM_SIZE>();
+    if (bytes != zero_bytes) gpu_.queue.enqueueFillBuffer(counts.buffer(), 0u, 0, bytes);
+    return counts;
+}
+
 TriangleLists BinTriangles::enqueue(const SurfaceBuffers& scene, uint triangle_count,
                                     const View& view, StageTimer& timer) {
     const int group = bin_group(gpu_, tuning_);
@@ -76,21 +86,27 @@ TriangleLists BinTriangles::enqueue(const SurfaceBuffers& scene, uint triangle_c
                                            static_cast<std::size_t>(tuning_.cull_chunks));
     const std::size_t some = std::max<std::size_t>(triangle_count, 1);
     out.triangles = triangles_.reserve(some);
-    const Binning binning{triangle_count,        some_closed_,
-                          closed_.get(),         boxes_.reserve(kBoxWords * some),
-                          kept_.reserve(chunks), cursors_.reserve(chunks * stride)};
-    const DeviceArray<uint> counts = lists_.counts(stride);
-    const WorkSize walk = by_group ? items(some, group) : groups(chunks, 1);
-    if (by_group) {
-        clear_.enqueue(items(stride, group), timer, static_cast<uint>(stride), binning.cursors);
-    }
+    const Binning binning{
+        triangle_count,
+        some_closed_,
+        closed_.get(),
+        boxes_.reserve(kBoxWords * some),
+        kept_.reserve(chunks),
+        by_group ? zero_counts(out.tile_count) : cursors_.reserve(chunks * stride)};
+    // Kernels rely on the size: one that the device cannot run throws.
+    const auto item_count = static_cast<std::size_t>(group);
+    const WorkSize walk =
+        by_group ? groups((some + item_count - 1) / item_count, group) : groups(chunks, 1);
     set_up_.enqueue(walk, timer, view, scene, out.triangles, binning);
-    offset_.enqueue(offset_.vector_items(stride, tuning_.light_group), timer, out.tile_count,
-                    static_cast<uint>(chunks), binning.cursors, counts);
+    if (!by_group) {
+        offset_.enqueue(offset_.vector_items(stride, tuning_.light_group), timer, out.tile_count,
+                        static_cast<uint>(chunks), binning.cursors, lists_.counts(stride));
+    }
     out.offsets = lists_.enqueue_offsets(out.tile_count, timer);
     out.lists = lists_.entries<uint>();
     out.capacity = lists_.capacity();
     fill_.enqueue(walk, timer, view, binning, out);
+    if (by_group) zero_bytes_ = binning.cursors.buffer().getInfo<CL_MEM_SIZE>();
     return out;
 }
 
@@ -101,7 +117,7 @@ StageWork bin_triangles_work(const StageCounts& c) {
     return {.bytes_read = kTriangle * c.triangles + kBox * c.seen_triangles,
             .bytes_written =
                 (sizeof(RasterRow) + kBox) * c.seen_triangles + sizeof(uint) * c.triangle_pairs,
-            .launches = 4};
+            .launches = 3};  // CPUs have one more
 }
 
 }  // namespace kilolux

@@ -31,6 +31,9 @@ class BinTriangles {
     TriangleLists enqueue(const SurfaceBuffers& scene, uint triangle_count, const View& view,
                           StageTimer& timer);
 
+    /// Starts the copy that pairs() waits for. Enqueues only.
+    void start_count(StageTimer& timer) { lists_.start_read(timer); }
+
     /// Pairs of triangle and tile of the last enqueue. Blocks.
     std::uint64_t pairs() const { return lists_.read_total(); }
 
@@ -39,15 +42,18 @@ class BinTriangles {
     bool fits(std::uint64_t pairs) { return lists_.fits(pairs); }
 
  private:
+    DeviceArray<uint> zero_counts(uint tiles);
+
     Gpu gpu_;
     Tuning tuning_;
     KernelProgram program_;
-    Kernel clear_, set_up_, offset_, fill_;
+    Kernel set_up_, offset_, fill_;
     GrowingArray<RasterRow> triangles_;
     GrowingArray<uint> boxes_, kept_, cursors_;
     GrowingArray<std::uint8_t> closed_;
     uint some_closed_ = 0;
     CountedList lists_;
+    std::size_t zero_bytes_ = 0;  // of the buffer of zero_counts(), which grows; 0: unknown
 };
 
 }  // namespace kilolux

@@ -35,9 +35,10 @@ SHARED_STRUCT(LightSwarm) {
     uint seed_high, seed_low;
     float intensity;  // luminous intensity of the brightest channel [cd]
     uint box_count;   // 1 .. SWARM_BOXES
+    float4 gain;      // xyz: factors of every light's intensity
     DriftBox boxes[SWARM_BOXES];
 };
-SHARED_ASSERT(light_swarm_size, sizeof(LightSwarm) == 16 + SWARM_BOXES * sizeof(DriftBox));
+SHARED_ASSERT(light_swarm_size, sizeof(LightSwarm) == 32 + SWARM_BOXES * sizeof(DriftBox));
 
 // How a point light drifts along the axes of a box, reflected at its ends. A position is a phase in
 // turns: in one turn a light crosses the box and returns.
@@ -144,10 +145,11 @@ SHARED_FN LightDrift swarm_light(SWARM_POINTER swarm, ulong light) {
     return with_colour(d, key, swarm->intensity);
 }
 
-// Its luminous intensity [cd].
-SHARED_FN float4 drift_intensity(LightDrift d) {
-    return make_float4(bits_float(d.low.w), bits_float(d.rate_high.w), bits_float(d.rate_low.w),
-                       0.0f);
+// Its luminous intensity [cd]. Paths stay as they are where the gain changes.
+SHARED_FN float4 drift_intensity(SWARM_POINTER swarm, LightDrift d) {
+    return make_float4(bits_float(d.low.w) * swarm->gain.x,
+                       bits_float(d.rate_high.w) * swarm->gain.y,
+                       bits_float(d.rate_low.w) * swarm->gain.z, 0.0f);
 }
 
 // The share of the box's extent along an axis, see drift_share().

@@ -90,7 +90,10 @@ std::vector<std::size_t> keep_usable(std::vector<SceneLight>& lights, const std:
 LitScene lit_scene(SharedOptions& shared) {
     Scene scene = open_scene(shared);
     const Camera camera = choose_camera(shared, scene);
-    const auto generated = generate_lights(shared.settings.lights, scene, shared.time);
+    const GroupMix& mix = shared.settings.light_mix;
+    const auto generated =
+        generate_lights(mixed_generated(shared.settings.lights, scene, mix), scene, shared.time);
+    scene.lights = mixed_lights(scene, mix);
     scene.lights.insert(scene.lights.end(), generated.begin(), generated.end());
     for (SceneLight& light : scene.lights) {
         light = placed_light(light, camera.world_from_view, camera.position);

@@ -40,7 +40,7 @@ std::string render_command(const CameraRig& rig, const SharedOptions& options, c
     SharedOptions said = options;
     said.camera = {};                 // camera_options() writes it
     said.settings.want.aovs.clear();  // a PNG has no layers
-    said.light_groups.clear();
+    if (said.settings.light_mix.gains.empty()) said.light_groups.clear();
     SharedOptions defaults;
     const std::string out =
         "kilolux render " + shell_word(options.scene) +

@@ -88,7 +88,6 @@ std::vector<NumberedLight> OwnLights::begin_sending() {
 void OwnLights::end_sending(bool accepted) {
     const Lights sent = std::exchange(sent_before_, {});
     if (accepted) {
-        version_ += sent.empty() ? 0 : 1;
         scene_point_size_ = sent_point_size_;
         return;
     }

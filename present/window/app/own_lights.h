@@ -40,8 +40,6 @@ class OwnLights {
     bool has_news() const { return !before_.empty(); }
     std::vector<NumberedLight> begin_sending();
     void end_sending(bool accepted);
-    /// How often the scene has taken changes.
-    std::uint32_t version() const { return version_; }
 
  private:
     using Lights = std::map<std::size_t, SceneLight>;  // by number
@@ -53,8 +51,7 @@ class OwnLights {
     Lights originals_;             // of changed lights
     Lights before_, sent_before_;  // what the scene has of lights to be sent, and of sent ones
     double point_size_, sent_point_size_, scene_point_size_;  // [m]
-    std::uint32_t version_ = 0;
-    std::vector<std::size_t> counts_;  // by LightType
+    std::vector<std::size_t> counts_;                         // by LightType
     bool has_unranged_ = false;
 };
 

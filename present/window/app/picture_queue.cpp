@@ -27,8 +27,8 @@ bool same_content(const PictureRequest& a, const PictureRequest& b) {
     resized.width = b.settings.width;
     resized.height = b.settings.height;
     resized.samples = b.settings.samples;
-    return resized == b.settings && a.rig == b.rig && a.own_lights == b.own_lights &&
-           a.time == b.time && a.camera == b.camera;
+    return resized == b.settings && a.lights == b.lights && a.time == b.time &&
+           a.camera == b.camera;
 }
 
 bool same_request(const PictureRequest& a, const PictureRequest& b) {

@@ -24,8 +24,9 @@ fs::path free_file(const std::string& extension) {
 void PictureSaving::begin(RenderWorker& worker, const PictureRequest& request,
                           SharedOptions options, const std::string& extension) {
     options.settings = request.settings;
+    options.settings.want.radiance = true;  // EXR holds it; pictures that are shown do without
     const auto save = [request, options, extension](Renderer& renderer) {
-        renderer.change(request.settings);
+        renderer.change(options.settings);
         const Frame frame = renderer.render(request.camera, request.time);
         ImageNotes notes = picture_notes(options, renderer.device(), frame.stats);
         notes.camera = request.camera;

@@ -9,7 +9,6 @@
 
 #include "host/base/system/interrupt.h"
 #include "host/render/renderer.h"
-#include "host/scene/lights/rig.h"
 #include "present/window/app/task_thread.h"
 
 namespace kilolux {
@@ -46,8 +45,7 @@ struct PictureRequest {
     double time = 0.0;                               // [s]
     std::span<uint> pixels;                          // rows display_stride() apart
     int samples = 0;                                 // of settings.samples; 0: all
-    Rig rig{};                                       // the rig whose lights the scene has
-    std::uint32_t own_lights = 0;                    // their version, OwnLights::version()
+    std::uint32_t lights = 0;                        // their version, SceneLights::version()
     std::shared_ptr<PictureProgress> progress = {};  // null: not needed
 };
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/window/app/scene_lights.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "host/base/log.h"
 #include "host/render/plan/settings_check.h"
+#include "host/scene/lights/glow/mean_emission.h"
 #include "present/cli/scene_choice.h"
 
 namespace kilolux {
@@ -26,6 +28,7 @@ SharedOptions with_rig(SharedOptions asked, Rig rig) {
 void take_lit(RenderSettings& settings, const SharedOptions& lit) {
     settings.lights.count = lit.settings.lights.count;
     settings.ambient = lit.settings.ambient;
+    settings.light_mix.groups = lit.settings.light_mix.groups;
     settings.background = lit.shown_background;
     settings.reflections = lit.maps;
 }
@@ -36,17 +39,40 @@ void take_tail_settings(RenderSettings& settings, const RenderSettings& from) {
     settings.renderer = from.renderer;
     settings.shadows = from.shadows;
     settings.shading = from.shading;
+    settings.light_mix.gains = from.light_mix.gains;
 }
 
 }  // namespace
 
+bool has_glowing_surfaces(const Scene& scene) {
+    return std::ranges::any_of(scene.instances, [&](const Instance& instance) {
+        const auto looks = looks_of(scene, scene.meshes[static_cast<std::size_t>(instance.mesh)]);
+        return std::ranges::any_of(looks, [](const Material* look) { return glows(*look); });
+    });
+}
+
+SceneLights::SceneLights(AnimatedScene& scene, SharedOptions asked, SharedOptions lit, Rig rig)
+    : scene_(scene),
+      asked_(std::move(asked)),
+      lit_(std::move(lit)),
+      rig_(rig),
+      can_glow_(has_glowing_surfaces(scene.scene())),
+      surfaces_(choice_of(lit_.emissive_lights, lit_.settings)),
+      own_({scene.own_lights().begin(), scene.own_lights().end()}, lit_.load.light_size) {}
+
+SceneLights::SurfaceChoice SceneLights::choice_of(EmissiveLights emissive,
+                                                  const RenderSettings& settings) {
+    if (emissive != EmissiveLights::automatic) return {emissive};
+    return {emissive, take_area_lights(settings), settings.lights.count > 0};
+}
+
+bool SceneLights::surfaces_fit(const ViewState& state) const {
+    return !can_glow_ || choice_of(state.emissive_lights, state.settings) == surfaces_;
+}
+
 bool SceneLights::fit(const ViewState& state) const {
     if (state.rig != rig_) return false;
     const RenderSettings &now = state.settings, &lit = lit_.settings;
-    if (asked_.emissive_lights == EmissiveLights::automatic && lit_.rig == Rig::none &&
-        take_area_lights(now) != take_area_lights(lit)) {
-        return false;
-    }
     if (now.tails != Tails::automatic) return true;
     if (asked_.settings.tails != Tails::automatic) return false;
     return lit.tails == Tails::automatic ||
@@ -67,6 +93,7 @@ void SceneLights::replace(RenderWorker& worker, const ViewState& state,
     for (SharedOptions* options : {&asked_, &lit_}) {  // a failure is not tried again
         take_tail_settings(options->settings, state.settings);
     }
+    asked_.emissive_lights = state.emissive_lights;
     ask(worker, with_rig(asked_, state.rig), settings, true);
 }
 
@@ -75,6 +102,7 @@ void SceneLights::change(RenderWorker& worker, const ViewState& state,
     SharedOptions asked = lit_;
     take_tail_settings(asked_.settings, state.settings);
     take_tail_settings(asked.settings, state.settings);
+    asked.emissive_lights = asked_.emissive_lights = state.emissive_lights;
     asked.settings.lights.count = state.settings.lights.count;
     asked.settings.ambient = state.settings.ambient;
     asked.settings.range_budget = asked_.settings.range_budget;
@@ -94,6 +122,7 @@ void SceneLights::ask(RenderWorker& worker, const SharedOptions& asked,
                 scene.replace_lights({});
                 out.line = light_scene(out.options, scene);
             } else {
+                choose_emissive_lights(out.options, scene);
                 choose_tails(out.options, scene.scene());
             }
             RenderSettings next = settings;
@@ -122,11 +151,15 @@ void SceneLights::take(ViewState& state, const OnFailure& failed) {
             rig_ = state.rig;
         }
         lit_ = std::move(relit.options);
+        surfaces_ = choice_of(lit_.emissive_lights, lit_.settings);
+        ++version_;
     };
     if (relit_.take(take_relit, failed)) return;
     own_.end_sending(false);
     state.rig = rig_;
     state.settings.lights.size = own_.point_size();
+    state.emissive_lights = lit_.emissive_lights;
+    surfaces_ = choice_of(state.emissive_lights, state.settings);
 }
 
 void SceneLights::forget_command_line(const RenderSettings& defaults) {

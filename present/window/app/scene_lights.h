@@ -12,31 +12,32 @@
 
 namespace kilolux {
 
-/// The scene's own lights, and those that a rig adds to them. The panel changes lights and chooses
-/// another rig; the worker then replaces the scene's.
+/// Whether the scene has surfaces that --emissive-lights could make lights.
+bool has_glowing_surfaces(const Scene& scene);
+
+/// The scene's own lights, those that a rig adds to them, and those of emissive surfaces. The panel
+/// changes lights and chooses another rig; the worker then replaces the scene's.
 class SceneLights {
  public:
     /// `asked`: the options before light_scene(); `lit`: after it.
-    SceneLights(AnimatedScene& scene, SharedOptions asked, SharedOptions lit, Rig rig)
-        : scene_(scene),
-          asked_(std::move(asked)),
-          lit_(std::move(lit)),
-          rig_(rig),
-          own_({scene.own_lights().begin(), scene.own_lights().end()}, lit_.load.light_size) {}
+    SceneLights(AnimatedScene& scene, SharedOptions asked, SharedOptions lit, Rig rig);
 
     /// The scene's own lights as the user wants them.
     OwnLights& own() { return own_; }
     const OwnLights& own() const { return own_; }
 
-    /// Whether the lights and their tails are those of the state's rig, renderer, shading and
-    /// shadows.
+    /// Whether the lights and their tails are those of the state's rig, renderer and shadows.
     bool fit(const ViewState& state) const;
+    /// Whether emissive surfaces light the scene as the state says.
+    bool surfaces_fit(const ViewState& state) const;
+    /// Whether the scene has_glowing_surfaces().
+    bool can_glow() const { return can_glow_; }
     /// The state's settings. Automatic tails are replaced by those that light_scene() chose.
     RenderSettings settings_of(const ViewState& state) const;
 
     /// Asks for the lights of the state's rig; `settings`: of the next picture.
     void replace(RenderWorker& worker, const ViewState& state, const RenderSettings& settings);
-    /// Asks only for the changes of the scene's own lights.
+    /// Asks only for the changes of the scene's own lights and of those of surfaces.
     void change(RenderWorker& worker, const ViewState& state, const RenderSettings& settings);
     /// Takes the new lights, and writes the settings that depend on them to the state. After a
     /// failure the former lights stay.
@@ -48,22 +49,33 @@ class SceneLights {
     /// Later rigs use the program's defaults instead of the command line's options of lights.
     void forget_command_line(const RenderSettings& defaults);
 
-    Rig rig() const { return rig_; }  // of the lights that the scene has
     const SharedOptions& options() const { return lit_; }
+    /// How often the scene's lights have been replaced.
+    std::uint32_t version() const { return version_; }
 
  private:
     struct Relit {
         SharedOptions options;  // after light_scene()
         std::string line;       // the lines of light_scene()
-        bool with_rig = true;   // else only own lights have changed
+        bool with_rig = true;   // else only own lights and those of surfaces have changed
     };
+    // What decides whether surfaces light the scene: see choose_emissive_lights().
+    struct SurfaceChoice {
+        EmissiveLights emissive = EmissiveLights::automatic;
+        bool take_sizes = false, generates = false;  // of automatic ones
+        bool operator==(const SurfaceChoice&) const = default;
+    };
+    static SurfaceChoice choice_of(EmissiveLights emissive, const RenderSettings& settings);
     void ask(RenderWorker& worker, const SharedOptions& asked, const RenderSettings& settings,
              bool with_rig);
 
     AnimatedScene& scene_;  // its lights are the worker's
     SharedOptions asked_, lit_;
-    Rig rig_;
+    Rig rig_;  // of the lights that the scene has
+    bool can_glow_;
+    SurfaceChoice surfaces_;  // that the scene has, or that failed
     OwnLights own_;
+    std::uint32_t version_ = 0;
     Awaited<Relit> relit_;
 };
 

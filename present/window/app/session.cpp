@@ -13,8 +13,8 @@
 #include "present/cli/names.h"
 #include "present/cli/scene_choice.h"
 #include "present/window/app/command_text.h"
-#include "present/window/overlay/light_outlines.h"
 #include "present/window/panel/key_bindings.h"
+#include "present/window/panel/panel_groups.h"
 #include "present/window/panel/panel_lights.h"
 #include "present/window/panel/panel_settings.h"
 #include "present/window/panel/panel_stats.h"
@@ -38,6 +38,7 @@ std::string unsaid_lights(std::size_t changed) {
 ViewState first_state(const SharedOptions& asked, const SharedOptions& lit) {
     ViewState state;
     state.rig = asked.rig;
+    state.emissive_lights = asked.emissive_lights;
     state.settings = lit.settings;
     // The session chooses anew where they are automatic.
     state.settings.tails = asked.settings.tails;
@@ -45,7 +46,6 @@ ViewState first_state(const SharedOptions& asked, const SharedOptions& lit) {
     state.settings.background = lit.shown_background;
     state.settings.reflections = lit.maps;
     state.settings.want.aovs.clear();
-    state.settings.light_groups.clear();
     state.settings.want.probes = true;
     state.settings.want.radiance = false;
     return state;
@@ -64,8 +64,10 @@ ViewSession::ViewSession(AnimatedScene& scene, SessionOptions options, StateFile
       lights_(scene, std::move(options_.asked), options_.shared, state_.rig),
       pictures_(state_, frames_, steering_.rig(), lights_, options_.shared.time,
                 options_.exit_after > 0),
+      outlines_(scene_),
       facts_{.scene = scene_,
              .own_lights = lights_.own(),
+             .can_glow = lights_.can_glow(),
              .triangles = triangle_count(scene_),
              .opengl = gl_string(GL_RENDERER) + ", " + gl_string(GL_VERSION),
              .error = error_} {
@@ -175,7 +177,8 @@ void ViewSession::request_picture() {
         // While a light is dragged, every change that the scene takes is shown.
         if (!lights_.fit(state_)) {
             lights_.replace(*worker_, state_, settings());
-        } else if (lights_.own().has_news() && pictures_.show_own_lights()) {
+        } else if (!lights_.surfaces_fit(state_) ||
+                   (lights_.own().has_news() && pictures_.show_lights())) {
             lights_.change(*worker_, state_, settings());
         }
     }
@@ -253,6 +256,7 @@ void ViewSession::reset_settings() {
     fresh.settings = SharedOptions().settings;
     fresh.settings.samples = kRestSamples;
     fresh.settings.device = state_.settings.device;
+    fresh.settings.light_mix.groups = state_.settings.light_mix.groups;
     fresh.settings.background = lights_.options().shown_background;
     fresh.settings.reflections = lights_.options().maps;
     fresh.window_size = state_.window_size;
@@ -290,7 +294,7 @@ void ViewSession::describe() {
     const ShownPicture picture = pictures_.shown_picture();
     clusters_.ask(*worker_, state_, picture);
     clusters_.describe(state_, picture);
-    draw_light_outlines(*ImGui::GetBackgroundDrawList(), lights_.own().lights(), state_, picture);
+    outlines_.draw(*ImGui::GetBackgroundDrawList(), lights_.own().lights(), state_, picture);
     if (state_.show_panel) describe_panel(actions);
     if (state_.show_overlay) {
         describe_overlay(overlay_lines(), messages_.notice(), picture.place, picture.scale);
@@ -321,6 +325,7 @@ void ViewSession::describe_panel(Actions& actions) {
     settings.picture();
     settings.lights();
     PanelLights{settings}.own_lights(steering_.rig());
+    PanelGroups{settings}.groups();
     stats.speed();
     settings.clusters();
     settings.camera(steering_.rig());

@@ -13,6 +13,7 @@
 #include "present/window/app/window_pictures.h"
 #include "present/window/overlay/cluster_overlay.h"
 #include "present/window/overlay/error_measurement.h"
+#include "present/window/overlay/light_outlines.h"
 #include "present/window/overlay/messages.h"
 #include "present/window/panel/panel.h"
 #include "present/window/panel/window_frames.h"
@@ -86,6 +87,7 @@ class ViewSession {
     SceneLights lights_;
     WindowPictures pictures_;
     ClusterOverlay clusters_;
+    LightOutlines outlines_;
     ErrorMeasurement error_;
     Awaited<DeviceLimits> limits_;
     PictureSaving saving_;

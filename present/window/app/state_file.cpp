@@ -27,11 +27,13 @@ void visit_state(ViewState& state, const SettingVisitor& visit) {
     SharedOptions shared;
     shared.settings = state.settings;
     shared.rig = state.rig;
+    shared.emissive_lights = state.emissive_lights;
     visit_settings(shared, [&visit](const Setting& setting) {
         if (setting.text.effect.in_panel) visit(setting);
     });
     state.settings = shared.settings;
     state.rig = shared.rig;
+    state.emissive_lights = shared.emissive_lights;
     GridSettings& grid = state.settings.grid;
     OptionBuilder(visit, "Window")
         .count({"fine-slices"}, grid.fine_per_octave, kSlicesRange)

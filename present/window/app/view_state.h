@@ -5,6 +5,8 @@
 #include <glm/glm.hpp>
 
 #include "host/render/settings.h"
+#include "host/scene/lights/glow/glowing_surfaces.h"
+#include "host/scene/lights/light_aim.h"
 #include "host/scene/lights/rig.h"
 #include "present/window/app/camera_rig.h"
 
@@ -23,6 +25,7 @@ inline RenderSettings window_settings() {
 struct ViewState {
     RenderSettings settings = window_settings();  // width, height and aovs follow from the window
     Rig rig = Rig::automatic;                     // decides the settings' lights and ambient light
+    EmissiveLights emissive_lights = EmissiveLights::automatic;
     bool lights_move = false;
     double light_speed = 1.0;  // seconds of the lights' time per second
     CameraMode camera_mode = CameraMode::fly;
@@ -41,7 +44,8 @@ struct ViewState {
     bool error_map = false;       // show the measured error in place of the picture
     int light = -1;               // the selected one of the scene's own, by number; -1: none
     glm::vec3 light_color{1.0f};  // its colour, the brightest channel 1: kept while it is dark
-    bool outlines = false;        // draw those of all of the scene's own lights with a size
+    LightAim light_aim;           // where it points: kept where the direction has no azimuth
+    bool outlines = false;        // draw those of lights with a size: own and generated ones
 
     bool operator==(const ViewState&) const = default;
 };

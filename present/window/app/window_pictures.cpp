@@ -69,8 +69,7 @@ PictureRequest WindowPictures::wanted(double scale) const {
     if (state_.frozen) out.settings.want.aovs = {"depth"};
     out.camera = rig_.camera();
     out.time = time_;
-    out.rig = lights_.rig();
-    out.own_lights = lights_.own().version();
+    out.lights = lights_.version();
     return out;
 }
 

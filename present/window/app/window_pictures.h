@@ -41,10 +41,10 @@ class WindowPictures {
     bool are_busy() const { return !always() && queue_.is_busy(); }
     /// Whether the wanted one is shown in full size.
     bool are_complete() const { return !queue_.is_moving() && queue_.has_finished(wanted()); }
-    /// Whether they show the scene's own lights as it has them, or none will soon.
-    bool show_own_lights() const {
+    /// Whether they show the lights as the scene has them, or none will soon.
+    bool show_lights() const {
         const auto& displayed = queue_.displayed();
-        return !queue_.is_busy() || (displayed && displayed->own_lights == lights_.own().version());
+        return !queue_.is_busy() || (displayed && displayed->lights == lights_.version());
     }
     PictureQueue& queue() { return queue_; }
     const PictureQueue& queue() const { return queue_; }

@@ -4,8 +4,12 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <functional>
 #include <glm/gtc/constants.hpp>
+#include <utility>
 
+#include "host/base/system/parallel.h"
+#include "host/scene/lights/light_aim.h"
 #include "host/scene/lights/light_kinds.h"
 #include "host/scene/lights/light_shape.h"
 #include "host/scene/lights/light_side.h"
@@ -49,6 +53,19 @@ void draw_closed(const ProjectedPicture& picture, const std::vector<glm::dvec3>&
     }
 }
 
+double eye_distance2(const Camera& camera, const glm::dvec3& position) {
+    const glm::dvec3 from = position - camera.position;
+    return glm::dot(from, from);
+}
+
+// Leaves the `most` values of which `key` is least.
+template <typename T, typename Key>
+void keep_nearest(std::vector<T>& values, std::size_t most, const Key& key) {
+    if (values.size() <= most) return;
+    std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(most), {}, key);
+    values.resize(most);
+}
+
 // The selected light: its outline, or a circle, and a line the way that it shines.
 void draw_selected(const ProjectedPicture& picture, const SceneLight& light, float scale) {
     const LightKind& kind = kind_of(light);
@@ -60,7 +77,7 @@ void draw_selected(const ProjectedPicture& picture, const SceneLight& light, flo
     const std::optional<glm::vec2> at = picture.place_of(light.position);
     for (const LineLook& look : {kShadow, kSelectedLook}) {
         draw_closed(picture, outline, look);
-        if (kind.is_aimed) {
+        if (is_aimed_light(light)) {
             picture.line(light.position, light.position + reach * light.direction, look);
         }
         if (at && !is_area_light(light)) {
@@ -91,33 +108,56 @@ std::vector<glm::dvec3> outline_of(const SceneLight& light, const Camera& camera
     }
 }
 
-std::vector<std::size_t> nearest_area_lights(std::span<const SceneLight> lights,
-                                             const Camera& camera, std::size_t most) {
-    std::vector<std::size_t> out;
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        if (is_area_light(lights[i])) out.push_back(i);
+std::vector<const SceneLight*> nearest_area_lights(std::span<const SceneLight> own,
+                                                   std::span<const SceneLight> generated,
+                                                   const Camera& camera, std::size_t most) {
+    std::vector<const SceneLight*> out;
+    for (const std::span<const SceneLight> lights : {own, generated}) {
+        for (const SceneLight& light : lights) {
+            if (is_area_light(light)) out.push_back(&light);
+        }
     }
-    if (out.size() <= most) return out;
-    const auto distance = [&](std::size_t i) {
-        return glm::length(lights[i].position - camera.position);
-    };
-    std::ranges::nth_element(out, out.begin() + static_cast<std::ptrdiff_t>(most), {}, distance);
-    out.resize(most);
+    keep_nearest(out, most,
+                 [&](const SceneLight* light) { return eye_distance2(camera, light->position); });
     return out;
 }
 
-void draw_light_outlines(ImDrawList& draw, std::span<const SceneLight> lights,
-                         const ViewState& state, const ShownPicture& shown) {
-    const bool has_selected = state.light >= 0 && std::cmp_less(state.light, lights.size());
+std::vector<SceneLight> nearest_generated_lights(const LightSearch& search, const Scene& scene,
+                                                 std::size_t most) {
+    const std::uint64_t count = search.options.count;
+    if (count == 0 || count > kMostSearched || !(search.options.size > 0.0)) return {};
+    const LightGenerator generator(search.options, scene, search.time);
+    std::vector<std::pair<double, std::uint64_t>> numbers(count);  // by distance
+    parallel_for(std::uint64_t{0}, count, [&](std::uint64_t i) {
+        numbers[i] = {eye_distance2(search.camera, generator[i].position), i};
+    });
+    keep_nearest(numbers, most, std::identity{});
+    std::vector<SceneLight> out;
+    for (const auto& [distance, number] : numbers) out.push_back(generator[number]);
+    return out;
+}
+
+const std::vector<SceneLight>& LightOutlines::nearest_generated(const PictureRequest& request) {
+    const LightSearch wanted{request.settings.lights, request.time, request.camera};
+    if (wanted == searched_) return nearest_;
+    nearest_ = nearest_generated_lights(wanted, scene_, kMostOutlines);
+    searched_ = wanted;
+    return nearest_;
+}
+
+void LightOutlines::draw(ImDrawList& draw, std::span<const SceneLight> own, const ViewState& state,
+                         const ShownPicture& shown) {
+    const bool has_selected = state.light >= 0 && std::cmp_less(state.light, own.size());
     if (!shown.displayed || (!has_selected && !state.outlines)) return;
     const ProjectedPicture picture(draw, shown.displayed->camera, shown.place);
     if (state.outlines) {
-        for (const std::size_t i : nearest_area_lights(lights, picture.camera(), kMostOutlines)) {
-            draw_closed(picture, outline_of(lights[i], picture.camera()), kLook);
+        for (const SceneLight* light : nearest_area_lights(own, nearest_generated(*shown.displayed),
+                                                           picture.camera(), kMostOutlines)) {
+            draw_closed(picture, outline_of(*light, picture.camera()), kLook);
         }
     }
     if (has_selected) {
-        draw_selected(picture, lights[static_cast<std::size_t>(state.light)], shown.scale);
+        draw_selected(picture, own[static_cast<std::size_t>(state.light)], shown.scale);
     }
 }
 

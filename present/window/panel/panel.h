@@ -20,6 +20,7 @@ namespace kilolux {
 struct PanelFacts {
     const Scene& scene;  // but its lights, which the worker replaces
     const OwnLights& own_lights;
+    bool can_glow = false;  // the scene has_glowing_surfaces()
     std::size_t triangles = 0;
     std::string opengl{};  // the window's renderer
     DeviceInfo device{};

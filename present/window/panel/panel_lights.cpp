@@ -5,12 +5,13 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "host/scene/lights/light_aim.h"
 #include "host/scene/lights/light_kinds.h"
 #include "host/scene/lights/light_ranges.h"
 #include "host/scene/lights/light_shape.h"
-#include "present/window/overlay/light_outlines.h"
 #include "present/window/panel/panel_stats.h"
 
 namespace kilolux {
@@ -97,8 +98,6 @@ void PanelLights::select(const CameraRig& rig) const {
     ImGui::SameLine();
     if (ui.button("None")) state.light = -1;
     if (state.light != before) state.light_color = glm::vec3(1.0f);
-    ui.checkbox("Outlines", state.outlines);
-    ui.tip(fmt::format("Of all lights with a size, the nearest {} at most", kMostOutlines).c_str());
 }
 
 void PanelLights::change(std::size_t number) const {
@@ -108,6 +107,7 @@ void PanelLights::change(std::size_t number) const {
     bool changed = change_color(light);
     changed |= change_numbers(light);
     changed |= change_position(light);
+    changed |= change_aim(light);
     if (changed) actions.change_light = {number, light};
 }
 
@@ -148,6 +148,27 @@ bool PanelLights::change_position(SceneLight& light) const {
         changed |= ui.drag(name, light.position[axis++], {-kFarthest, kFarthest, step, "%.6g m"});
     }
     return changed;
+}
+
+bool PanelLights::change_aim(SceneLight& light) const {
+    if (!is_aimed_light(light)) return false;
+    constexpr DragRange kAround{-540.0, 540.0, 0.5, "%.4g deg"};  // past half a turn it goes on
+    LightAim& aim = state.light_aim;
+    SceneLight aimed = light;
+    set_aim(aimed, aim);
+    if (aimed != light) aim = aim_of(light);
+    bool changed = ui.drag("Azimuth", aim.azimuth, kAround);
+    ui.tip("The way that it shines, seen from above: 0 is -Z, 90 is +X");
+    changed |= ui.drag("Elevation", aim.elevation, {-90.0, 90.0, 0.25, "%.4g deg"});
+    ui.tip("The way that it shines: 90 is straight up, -90 straight down");
+    if (has_roll(light)) {
+        changed |= ui.drag("Roll", aim.roll, kAround);
+        ui.tip("How it is turned about the way that it shines");
+    }
+    if (!changed) return false;
+    for (double* angle : {&aim.azimuth, &aim.roll}) *angle = std::remainder(*angle, 360.0);
+    set_aim(light, aim);
+    return true;
 }
 
 void PanelLights::reset() const {

@@ -15,6 +15,7 @@ struct PanelLights : Panel {
     bool change_color(SceneLight& light) const;
     bool change_numbers(SceneLight& light) const;
     bool change_position(SceneLight& light) const;
+    bool change_aim(SceneLight& light) const;
     void reset() const;
 };
 

@@ -9,6 +9,7 @@
 #include "host/render/plan/settings_check.h"
 #include "host/scene/lights/light_generator.h"
 #include "present/cli/names.h"
+#include "present/window/overlay/light_outlines.h"
 #include "present/window/panel/panel_stats.h"
 
 namespace kilolux {
@@ -43,7 +44,7 @@ void PanelSettings::picture() const {
     if (!ui.section("Picture", true)) return;
     RenderSettings& s = state.settings;
     ui.choice("Renderer", s.renderer, names_of<RendererKind>());
-    const bool has_area = has_area_lights(facts.own_lights.lights(), s.lights);
+    const bool has_area = has_sizes();
     ui.choice("Shading", s.shading, names_of<Shading>(),
               refusals<Shading>(has_area, [](auto shading) {
                   return area_lights_problem(model_of(shading), Shadows::off);
@@ -68,6 +69,7 @@ void PanelSettings::lights() const {
     const LightScale scale = automatic_light_scale(lights, facts.scene);
     ui.choice("Rig", state.rig, names_of<Rig>());
     ui.tip("What lights the scene beside its own lights; it sets Lights and Ambient");
+    emissive_lights();
     ui.slider("Lights", lights.count, {1.0, 1e6, true, "%.0f"});
     ui.tip("Generated point lights; Ctrl+click to type a number");
     automatic_slider(ui, "Radius", lights.radius, scale.radius, {0.05, 100.0, true, "%.2f m"});
@@ -86,13 +88,33 @@ void PanelSettings::lights() const {
     ui.slider("Seed", lights.seed, {1, 100, false, "%.0f"});
 }
 
+// Whether the settings ask for lights with a size.
+bool PanelSettings::has_sizes() const {
+    return has_area_lights(facts.own_lights.lights(), state.settings.lights) ||
+           (facts.can_glow && state.emissive_lights == EmissiveLights::on);
+}
+
+void PanelSettings::emissive_lights() const {
+    if (!facts.can_glow) return;
+    const RenderSettings& s = state.settings;
+    std::vector<std::string> problems(names_of<EmissiveLights>().size());
+    problems[static_cast<std::size_t>(EmissiveLights::on)] =
+        area_lights_problem(model_of(s.shading), s.shadows);
+    ui.choice("Emissive", state.emissive_lights, names_of<EmissiveLights>(), problems);
+    ui.tip("Whether emissive surfaces light the others; auto: where nothing else lights");
+}
+
 void PanelSettings::size() const {
     RenderSettings& s = state.settings;
-    const bool has_area = has_area_lights(facts.own_lights.lights(), s.lights);
-    ui.begin_refusal(has_area ? "" : area_lights_problem(model_of(s.shading), s.shadows));
+    ui.begin_refusal(has_sizes() ? "" : area_lights_problem(model_of(s.shading), s.shadows));
     ui.slider("Size", s.lights.size, {0.0, 10.0, true, s.lights.size > 0.0 ? "%.3f m" : "points"});
     ui.tip("Radius of the generated lights, and of the file's points that give none: spheres");
     ui.end_refusal();
+    ui.checkbox("Outlines", state.outlines);
+    ui.tip(fmt::format("Of the {} nearest lights with a size: the scene's own, and generated ones "
+                       "up to {}",
+                       kMostOutlines, kMostSearched)
+               .c_str());
 }
 
 void PanelSettings::clusters() const {

@@ -14,6 +14,8 @@ struct PanelSettings : Panel {
     void window() const;
 
  private:
+    bool has_sizes() const;
+    void emissive_lights() const;
     void size() const;
 };
 

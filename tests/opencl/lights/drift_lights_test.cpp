@@ -40,9 +40,12 @@ struct Place {
     double rate = 0.25;
 };
 
+constexpr std::array<float, 3> kGain = {0.5f, 1.0f, 3.0f};
+
 // A swarm of several boxes with equal shares of the lights.
 LightSwarm swarm_of(const std::vector<Place>& places, float range = 2.5f, uint seed = 11) {
-    LightSwarm out{0, seed, 8.0f, static_cast<uint>(places.size()), {}};
+    LightSwarm out{
+        0, seed, 8.0f, static_cast<uint>(places.size()), {kGain[0], kGain[1], kGain[2], 0.0f}, {}};
     for (std::size_t i = 0; i < places.size(); ++i) {
         const auto& [min, extent, rate] = places[i];
         const PointPair corner = point_pair(min[0], min[1], min[2]);
@@ -161,10 +164,13 @@ TEST(DriftLights, RowsAreTheHostsPointLights) {
         const LightDrift expected = drift.light(order[i]);
         ++lights_of_box.at(expected.high.w);
         ASSERT_LE(distance(position(rows[2 + i]), drift.at(order[i], 0.75)), 0x1p-40);
-        ASSERT_EQ(float_bits(light.color_scale.x), expected.low.w);
-        ASSERT_EQ(float_bits(light.color_scale.y), expected.rate_high.w);
-        ASSERT_EQ(float_bits(light.color_scale.z), expected.rate_low.w);
-        ASSERT_EQ(std::max({light.color_scale.x, light.color_scale.y, light.color_scale.z}), 8.0f);
+        const std::array<float, 3> host = {std::bit_cast<float>(expected.low.w),
+                                           std::bit_cast<float>(expected.rate_high.w),
+                                           std::bit_cast<float>(expected.rate_low.w)};
+        ASSERT_EQ(light.color_scale.x, host[0] * kGain[0]);
+        ASSERT_EQ(light.color_scale.y, host[1] * kGain[1]);
+        ASSERT_EQ(light.color_scale.z, host[2] * kGain[2]);
+        ASSERT_EQ(*std::ranges::max_element(host), 8.0f);
         ASSERT_EQ(light.position_range.w, 2.5f);
         ASSERT_EQ(light.color_scale.w, 1.0f);
         ASSERT_EQ(light.axis_cos.w, -1.0f);

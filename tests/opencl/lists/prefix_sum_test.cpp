@@ -5,6 +5,7 @@
 
 #include "host/certify/synthetic/random.h"
 #include "host/gpu/memory/list_size.h"
+#include "tests/support/cl_calls.h"
 #include "tests/support/test_gpu.h"
 
 namespace kilolux {
@@ -60,11 +61,25 @@ TEST(PrefixSum, AgreesWithTheSumAtEveryBlockSizeAndLength) {
         const auto block = static_cast<std::size_t>(group * per_item);
         for (const std::size_t n :
              {std::size_t{0}, std::size_t{1}, std::size_t{2}, block - 1, block, block + 1,
-              2 * block, 3 * block + 5, std::size_t{5001}}) {
+              2 * block, 3 * block + 5, std::size_t{5001}, std::size_t{17000}}) {
             expect_sums(stage, random_counts(n, 1000),
                         std::to_string(group) + " x " + std::to_string(per_item) +
                             ", n = " + std::to_string(n));
         }
+    }
+}
+
+TEST(PrefixSum, FewBlocksTakeOneLaunch) {
+    const Gpu gpu = test_gpu();
+    PrefixSum stage(gpu, tuning_of(64, 8), "test");
+    for (const auto& [blocks, launches] : {std::pair{1u, 1}, {2u, 1}, {33u, 1}, {34u, 3}}) {
+        const std::vector<uint> counts(512 * blocks, 1u);
+        const cl::Buffer in = new_buffer(gpu, counts);
+        const cl::Buffer out = new_buffer(gpu, std::vector<uint>(counts.size() + 1));
+        StageTimer timer;
+        const ClCalls before = cl_calls();
+        stage.enqueue(in, 512 * blocks, out, timer);
+        EXPECT_EQ((cl_calls() - before).launches, launches) << blocks;
     }
 }
 

@@ -70,6 +70,22 @@ TEST_F(PhotometryCommand, TellsEachPointAndTheSummary) {
     EXPECT_LE(summary.at("float64").at("largest_relative_error_of_kernels").get<double>(), 1e-5);
 }
 
+// Gains count once, by the kernels and in float64.
+TEST_F(PhotometryCommand, HasTheGainsOfAMix) {
+    const std::string file = points("0,0,0,0,1,0\n");
+    const auto lux = [&](const Words& mix, const char* which) {
+        Words words = {"--points", file, "--json"};
+        words.insert(words.end(), mix.begin(), mix.end());
+        const ChildResult result = run(words);
+        EXPECT_EQ(result.code, 0) << result.err;
+        return Json::parse(result.out).at("points").at(0).at(which).get<double>();
+    };
+    const Words mix = {"--light-groups", "all=from:file", "--light-mix", "all=0.5"};
+    for (const char* which : {"kernels_lx", "float64_lx"}) {
+        EXPECT_NEAR(lux(mix, which), 0.5 * lux({}, which), 1e-5) << which;
+    }
+}
+
 // The first of the two gives no light.
 TEST_F(PhotometryCommand, LightsKeepTheirNumbers) {
     lamps_.replace(lamps_.find("100"), 3, "0");

@@ -75,6 +75,9 @@ TEST_F(RenderDevices, MakeThePictureOfOne) {
         {"c.png", {"--background", "none"}},
         {"d.exr", {"--aov", "depth,normal,light-count"}},
         {"e.exr", {"--samples", "auto", "--aov", "sample-count"}},
+        {"h.exr",
+         {"--samples", "3", "--rig", "studio", "--light-groups",
+          "sun=kind:directional,swarm=kind:point", "--light-mix", "sun=0.5:1,0.5,0.25"}},
         {"f.png", {"--show", "overdraw", "--geometry", "ids"}},
         {"g.png", {"--show", "difference"}}};
     for (const auto& [name, options] : cases) {

@@ -1,37 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Layers of the light of groups of lights.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <functional>
 #include <utility>
 
-#include "host/base/error.h"
-#include "host/picture/aovs.h"
-#include "host/scene/lights/light_groups.h"
+#include "tests/render/lights/named_grid.h"
 #include "tests/render/shadows/soft_scenes.h"
 #include "tests/support/glass_pictures.h"
 
 namespace kilolux {
 namespace {
-
-// grid_with_every_light() and the swarm, whose spots have names, in a light that is no light's.
-Scene named_grid() {
-    Scene scene = grid_with_every_light();
-    scene.light_nodes = {{"left", ""}, {"right", "lamps"}};
-    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        SceneLight& light = scene.lights[i];
-        if (kind_of(light).has_cone) light.node = i % 2 == 0 ? 0 : 1;
-    }
-    return scene;
-}
-
-const char* const kGroups =
-    "left=left,right=group:lamp*,sun=kind:directional,swarm=from:generated+kind:sphere";
-
-RenderSettings grouped(const Scene& scene, RenderSettings settings, const char* groups = kGroups) {
-    settings.light_groups =
-        light_groups_of(scene, settings.lights, parse_light_groups("--light-groups", groups));
-    return settings;
-}
 
 // The scene with only the lights for which `stays` holds; the others stay dark, in their places.
 Scene only(Scene scene, const std::function<bool(const SceneLight&)>& stays) {
@@ -39,13 +19,6 @@ Scene only(Scene scene, const std::function<bool(const SceneLight&)>& stays) {
         if (!stays(light)) light.intensity *= 1e-30f;
     }
     return scene;
-}
-
-const Layer& layer_of(const Frame& frame, const std::string& group) {
-    const auto found =
-        std::ranges::find(frame.aovs, std::string(kLightLayers) + group, &Layer::name);
-    if (found == frame.aovs.end()) throw Error("no layer " + group);
-    return *found;
 }
 
 // That the layers of all groups and of the rest add up to the picture, whose bits are those of a
@@ -127,6 +100,30 @@ TEST(LightGroups, AreInSamplesAndBandsAlike) {
     }
 }
 
+// Kernels tell up to eight groups apart by comparisons, more by their place.
+TEST(LightGroups, ManyAreTheSameAsOneAlone) {
+    constexpr int kMany = 12;
+    Scene scene = grid_with_every_light();
+    std::string all;
+    for (int i = 0; i < kMany; ++i) {
+        scene.light_nodes.push_back({fmt::format("lamp{}", i), ""});
+        all += fmt::format("{}lamp{}=lamp{}", i > 0 ? "," : "", i, i);
+    }
+    const std::size_t lights = scene.lights.size();
+    for (std::size_t i = 0; i < kMany; ++i) {
+        scene.lights.push_back(scene.lights[i % lights]);
+        scene.lights.back().node = static_cast<int>(i);
+    }
+    RenderSettings settings = small_settings(96, 64, 0);
+    settings.shading = Shading::pbr;
+    const Frame many = expect_whole(scene, grouped(scene, settings, all.c_str()));
+    for (int i = 0; i < kMany; i += 5) {
+        const std::string name = fmt::format("lamp{}", i);
+        const Frame one = render_once(scene, grouped(scene, settings, (name + "=" + name).c_str()));
+        EXPECT_EQ(layer_of(many, name).values, layer_of(one, name).values) << name;
+    }
+}
+
 TEST(LightGroups, OfGlassAreWhatIsSeenThroughIt) {
     Scene scene = glass_scene();
     scene.light_nodes = {{"near", ""}};
@@ -197,10 +194,10 @@ TEST(LightGroups, SayWhatIsWrong) {
     }
     RenderSettings settings = grouped(scene, small_settings());
     settings.auto_samples.on = true;
-    expect_refused(scene, settings, "light groups: not with --samples auto");
+    expect_refused(scene, settings, "light groups: no layers with --samples auto");
     settings.auto_samples.on = false;
     settings.renderer = RendererKind::forward;
-    expect_refused(scene, settings, "light groups: the forward renderers have none");
+    expect_refused(scene, settings, "light groups: the forward renderers have no layers");
 }
 
 }  // namespace

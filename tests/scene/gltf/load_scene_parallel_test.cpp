@@ -4,8 +4,8 @@
 
 #include <random>
 
+#include "host/base/system/parallel.h"
 #include "host/scene/animated_scene.h"
-#include "host/scene/gltf/parallel.h"
 #include "tests/support/gltf_builder.h"
 
 namespace kilolux {

@@ -72,6 +72,25 @@ TEST(LoadSceneProfiles, TurnWithTheirNode) {
     EXPECT_TRUE(mirrored.aimed_profiles[0].mirrored);
 }
 
+// extras.group of the node counts before that of the photometric light.
+TEST(LoadSceneProfiles, LightsAreInTheGroupOfTheirExtras) {
+    const auto group = [](const json& light_extras, const json& node_extras) {
+        json light = kFile, node = json::object();
+        if (!light_extras.is_null()) light["extras"] = light_extras;
+        if (!node_extras.is_null()) node["extras"] = node_extras;
+        const Scene scene = load_beside(file_with(light, node, {{"light", 0}}), ies_text({}));
+        return scene.light_nodes.at(static_cast<std::size_t>(scene.lights.at(0).node)).group;
+    };
+    const json street = {{"group", "street"}}, road = {{"group", "road"}};
+    EXPECT_EQ(group({}, {}), "");
+    EXPECT_EQ(group(street, {}), "street");
+    EXPECT_EQ(group({}, road), "road");
+    EXPECT_EQ(group(street, road), "road");
+    EXPECT_EQ(group(street, {{"group", 7}}), "street");
+    EXPECT_EQ(group({{"group", {1, 2}}}, {}), "");
+    EXPECT_EQ(group(json{"group"}, json{"group"}), "");
+}
+
 // The file's content tells EULUMDAT from LM-63, whatever its name.
 TEST(LoadSceneProfiles, FilesMayBeEulumdat) {
     const Scene scene =

@@ -8,6 +8,7 @@
 
 #include "host/scene/lights/light_kinds.h"
 #include "host/scene/lights/light_shape.h"
+#include "tests/support/box_scene.h"
 
 namespace kilolux {
 namespace {
@@ -99,14 +100,49 @@ TEST(LightOutlines, AreThoseOfTheNearest) {
         lights.back().position = {0.0, 0.0, z};
     }
     lights[3].type = LightType::point;
-    const auto nearest = [&](std::size_t most) {
-        std::vector<std::size_t> out = nearest_area_lights(lights, {}, most);
+    const std::span<const SceneLight> all(lights);
+    // By their numbers, of the scene's own (the first `own`) and of generated ones.
+    const auto nearest = [&](std::size_t own, std::size_t most) {
+        std::vector<std::ptrdiff_t> out;
+        for (const SceneLight* light :
+             nearest_area_lights(all.first(own), all.subspan(own), {}, most)) {
+            out.push_back(light - all.data());
+        }
         std::ranges::sort(out);
         return out;
     };
-    EXPECT_EQ(nearest(9), (std::vector<std::size_t>{0, 1, 2, 4}));
-    EXPECT_EQ(nearest(3), (std::vector<std::size_t>{1, 2, 4}));
-    EXPECT_EQ(nearest(0), std::vector<std::size_t>{});
+    for (const std::size_t own : {5u, 2u, 0u}) {
+        EXPECT_EQ(nearest(own, 9), (std::vector<std::ptrdiff_t>{0, 1, 2, 4}));
+        EXPECT_EQ(nearest(own, 3), (std::vector<std::ptrdiff_t>{1, 2, 4}));
+        EXPECT_EQ(nearest(own, 0), std::vector<std::ptrdiff_t>{});
+    }
+}
+
+TEST(LightOutlines, AreThoseOfTheNearestGeneratedLights) {
+    const Scene scene = box_scene({6.0, 3.0, 6.0}, true);
+    LightSearch wanted;
+    wanted.options.count = 300;
+    wanted.options.size = 0.125;
+    wanted.time = 7.5;
+    wanted.camera = camera_at({1.0, 0.5, 2.0});
+    std::vector<SceneLight> all = generate_lights(wanted.options, scene, wanted.time);
+    std::ranges::sort(all, {}, [&](const SceneLight& light) {
+        return glm::length(light.position - wanted.camera.position);
+    });
+    for (const std::size_t most : {0u, 1u, 40u, 300u, 1000u}) {
+        const std::size_t count = std::min<std::size_t>(most, 300);
+        const auto found = nearest_generated_lights(wanted, scene, most);
+        ASSERT_EQ(found.size(), count);
+        for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(std::ranges::count(found, all[i]), 1);
+    }
+    const auto none = [&](auto change) {
+        LightSearch changed = wanted;
+        change(changed.options);
+        return nearest_generated_lights(changed, scene, 40).empty();
+    };
+    EXPECT_TRUE(none([](LightOptions& options) { options.size = 0.0; }));
+    EXPECT_TRUE(none([](LightOptions& options) { options.count = 0; }));
+    EXPECT_TRUE(none([](LightOptions& options) { options.count = kMostSearched + 1; }));
 }
 
 }  // namespace

@@ -90,6 +90,7 @@ TEST(OwnLights, KeepsTheLastGoodValue) {
     EXPECT_TRUE(refuses([](SceneLight& light) { light.intensity.y = kNan; }));
     EXPECT_TRUE(refuses([](SceneLight& light) { light.intensity.y = -1.0f; }));
     EXPECT_TRUE(refuses([](SceneLight& light) { light.position.z = std::nan(""); }));
+    EXPECT_TRUE(refuses([](SceneLight& light) { light.direction = glm::dvec3(0.0); }));
     EXPECT_TRUE(refuses([](SceneLight& light) { light.inner_cone = light.outer_cone; }));
     EXPECT_FALSE(refuses([](SceneLight& light) { light.intensity = glm::vec3(0.0f); })) << "dark";
 }
@@ -133,7 +134,6 @@ TEST(OwnLights, TheSceneFollows) {
     dim(5, 0.25f);
     send(own, scene);
     EXPECT_FALSE(own.has_news());
-    EXPECT_EQ(own.version(), 1u);
     EXPECT_GT(scene.scene().revisions.lights, revision);
     EXPECT_TRUE(std::ranges::equal(scene.own_lights(), own.lights()));
     EXPECT_EQ(scene.added_lights().size(), 1u);
@@ -156,7 +156,6 @@ TEST(OwnLights, AreThoseOfTheSceneWhereItRefusesChanges) {
     own.set_point_size(0.125);
     own.begin_sending();
     own.end_sending(false);
-    EXPECT_EQ(own.version(), 1u);
     EXPECT_EQ(own.lights()[4], first);
     EXPECT_EQ(own.lights()[0], one_of_each()[0]);
     EXPECT_EQ(own.point_size(), 0.0);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/generated/atrium/materials.h"
 
-#include <tbb/parallel_for.h>
-
 #include <array>
 #include <utility>
 
+#include "host/base/system/parallel.h"
 #include "host/scene/generated/atrium/textures.h"
 #include "kernels/shared/hash.h"
 
@@ -53,7 +52,7 @@ constexpr std::array<NamedMaterial, static_cast<std::size_t>(AtriumMaterial::cou
 
 std::vector<SurfaceImages> make_all_images(std::uint64_t seed) {
     std::vector<SurfaceImages> made(kMakers.size());
-    tbb::parallel_for(std::size_t{0}, made.size(), [&](std::size_t i) {
+    parallel_for(std::size_t{0}, made.size(), [&](std::size_t i) {
         made[i] = kMakers[i](static_cast<std::uint32_t>(item_bits(item_key(seed, i), 0)));
     });
     return made;

@@ -13,8 +13,8 @@
 #include <string_view>
 
 #include "host/base/error.h"
+#include "host/base/system/parallel.h"
 #include "host/images/images.h"
-#include "host/scene/gltf/parallel.h"
 #include "host/scene/material_table.h"
 
 namespace kilolux {

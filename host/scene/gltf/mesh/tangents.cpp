@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/gltf/mesh/tangents.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "host/base/system/parallel.h"
 #include "host/scene/gltf/mesh/normals.h"
 #include "host/scene/gltf/mesh/tangent_groups.h"
 
@@ -68,14 +67,6 @@ std::array<glm::dvec3, 3> corner_tangents(const Mesh& mesh, std::size_t triangle
     return out;
 }
 
-template <typename Work>
-void parallel_range(std::size_t first, std::size_t end, const Work& work) {
-    using Range = tbb::blocked_range<std::size_t>;
-    tbb::parallel_for(Range(first, end, kVerticesOfTask), [&](const Range& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) work(i);
-    });
-}
-
 // Adds triangles in their order, so that threads change no bit; parts bound the memory.
 std::vector<GroupSum> sum_tangents(const Mesh& mesh, const MapCoordinates& map,
                                    std::span<const std::uint32_t> groups) {
@@ -86,11 +77,12 @@ std::vector<GroupSum> sum_tangents(const Mesh& mesh, const MapCoordinates& map,
     std::vector<std::array<glm::dvec3, 3>> part(turns.size());
     for (std::size_t begin = 0; begin < triangles; begin += kPart) {
         const std::size_t end = std::min(begin + kPart, triangles);
-        parallel_range(begin, end, [&](std::size_t t) {
+        const auto add_triangle = [&](std::size_t t) {
             const GroupSum own = triangle_tangent(mesh, map, &mesh.indices[3 * t]);
             turns[t - begin] = own.turn;
             part[t - begin] = corner_tangents(mesh, t, own.tangent);
-        });
+        };
+        parallel_for(begin, end, add_triangle, kVerticesOfTask);
         for (std::size_t t = begin; t < end; ++t) {
             if (turns[t - begin] == UvTurn::unknown) continue;
             for (std::size_t c = 0; c < 3; ++c) {
@@ -119,9 +111,10 @@ void derive_tangents(Mesh& mesh, const TextureUse& normal_texture,
                              glm::dmat3(normal_texture.uv_from_texcoord)};
     const std::vector<GroupSum> sums = sum_tangents(mesh, map, groups);
     mesh.tangents.resize(mesh.positions.size());
-    parallel_range(0, mesh.positions.size(), [&](std::size_t v) {
+    const auto put_tangent = [&](std::size_t v) {
         mesh.tangents[v] = tangent_of(mesh.normals[v], sums[groups[v]]);
-    });
+    };
+    parallel_for(std::size_t{0}, mesh.positions.size(), put_tangent, kVerticesOfTask);
 }
 
 void mend_tangents(Mesh& mesh) {

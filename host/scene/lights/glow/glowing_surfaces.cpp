@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/scene/gltf/parallel.h"
+#include "host/base/system/parallel.h"
 #include "host/scene/lights/glow/glowing_triangles.h"
 
 namespace kilolux {

@@ -1,33 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <vector>
 
 #include "host/picture/decoded_surfaces.h"
-#include "host/picture/pixel_probe.h"
-#include "host/render/frame_stages.h"
+#include "host/render/read/probe_reader.h"
 #include "host/stages/lists/count_lights.h"
 #include "host/stages/shadows/count_seen.h"
-#include "host/stages/surfaces/decode_gbuffer.h"
 #include "host/stages/tails/tail_errors.h"
 #include "raster/solid_pass.h"
 
 namespace kilolux {
 
-/// The sample that a frame lit last, on the device.
-struct LastSample {
-    LitBand& band;
-    FrameStages& stages;
-    const Camera& camera;
-};
-
 /// Reads counts, AOVs, surfaces and single pixels of a lit band. Their kernels are built when first
 /// asked for. All functions block.
 class BandReader {
  public:
-    explicit BandReader(RenderContext& context) : context_(context) {}
+    explicit BandReader(RenderContext& context)
+        : context_(context), surfaces_(context), probes_(context, surfaces_) {}
+    BandReader(const BandReader&) = delete;
+    BandReader& operator=(const BandReader&) = delete;
 
     /// Lights evaluated a pixel and what FrameRequest::counts and shadow_counts ask for.
     void count(const LastSample& last, FrameStats& stats);
@@ -39,7 +32,9 @@ class BandReader {
     LitSurfaces lit_surfaces(const LastSample& last);
 
     /// What is known of a pixel. `rows`: all lights, relative to the last camera.
-    PixelProbe probe(const LastSample& last, const LightRows& rows, int x, int y);
+    PixelProbe probe(const LastSample& last, const LightRows& rows, int x, int y) {
+        return probes_.probe(last, rows, x, y);
+    }
 
     /// Fragments that are shaded at each pixel.
     std::vector<float> overdraw(const Camera& camera, DrawOrder order);
@@ -49,22 +44,15 @@ class BandReader {
     void count_evaluated(const LastSample& last, DecodedSurfaces& out);
     void count_seen(const LastSample& last, DecodedSurfaces& out);
     void add_layers(const LastSample& last, DecodedSurfaces& out);
-    void each_layer(const LastSample& last, const std::function<void(const LayerStack&)>& visit);
-    void probe_layers(const LastSample& last, uint x, uint y, PixelProbe& out);
     std::vector<uint> forward_evaluated(const LastSample& last, const DecodedSurfaces& surfaces);
     std::vector<float> variance(const LastSample& last);
     std::vector<float> bound(const LastSample& last);
-    PixelProbe surface_at(const LitBand& band, int x, int y);
-    void probe_lists(const LastSample& last, int x, int y, PixelProbe& out);
-    std::vector<bool> seen_lights(const LitBand& band, const ActiveCluster& cluster, uint x,
-                                  uint y);
-    DecodeGBuffer& decoder();
-    DecodeGBuffer& layer_decoder();
     std::vector<float> illuminance(const LastSample& last);
     TailErrors& tail_errors();
 
     RenderContext& context_;
-    std::optional<DecodeGBuffer> decode_, decode_layers_;
+    SurfaceDecoder surfaces_;
+    ProbeReader probes_;
     std::optional<CountLights> count_lights_;
     std::optional<CountSeen> count_seen_;
     std::optional<CastShadows> counting_;
