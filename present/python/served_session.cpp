@@ -77,6 +77,7 @@ ServedSession::~ServedSession() {
 void ServedSession::run(RendererOptions options, std::optional<Scene> made,
                         std::vector<SceneLight> lights) {
     SessionOptions session;
+    options.shared.takes_light_layers = false;
     session.asked = options.shared;
     AnimatedScene scene = made || !lights.empty()
                               ? AnimatedScene(scene_with(options.shared, std::move(made), lights))

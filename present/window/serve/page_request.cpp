@@ -14,11 +14,12 @@
 namespace kilolux {
 namespace {
 
-// The page needs its own script and style, and this server.
+// The page needs its own script and style, and this server; not all browsers take 'self' for
+// WebSockets (w3c/webappsec-csp#7).
 constexpr std::pair<const char*, const char*> kHeaders[] = {
     {"content-security-policy:",
      "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; "
-     "connect-src 'self'; base-uri 'none'; form-action 'none'"},
+     "connect-src 'self' ws: wss:; base-uri 'none'; form-action 'none'"},
     {"x-content-type-options:", "nosniff"},
     {"referrer-policy:", "no-referrer"},
     {"cache-control:", "no-store"}};

@@ -362,20 +362,56 @@ TEST(PageServer, SaysGoodbye) {
     EXPECT_EQ(watcher.farewell(kSoon), 4000);
 }
 
+// The one line about a server that cannot be.
+void expect_refused(const ServerOptions& options) {
+    try {
+        const PageServer server(options, "", {});
+        FAIL() << text_of(options.address);
+    } catch (const Error& error) {
+        const std::string line = error.what();
+        const std::string begin = "--serve: cannot listen at " + text_of(options.address) + ": ";
+        EXPECT_TRUE(line.starts_with(begin) && line.size() > begin.size()) << line;
+        EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+    }
+}
+
 TEST(PageServer, APortThatIsTakenIsALine) {
     HeardServer server;
     ServerOptions options;
     options.address.port = server.address().port;
-    try {
-        const PageServer second(options, "", {});
-        FAIL() << "two servers at one port";
-    } catch (const Error& error) {
-        EXPECT_TRUE(std::string(error.what())
-                        .starts_with(fmt::format("--serve: cannot listen at 127.0.0.1:{}: ",
-                                                 options.address.port)))
-            << error.what();
-        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-    }
+    expect_refused(options);
+}
+
+TEST(PageServer, TlsFilesEncryptIt) {
+    const TemporaryFolder folder;
+    ServerOptions options;
+    options.certificate = folder / "cert.pem";
+    options.key = folder / "key.pem";
+    const std::string cert = options.certificate.string(), key = options.key.string();
+    write_text(options.certificate, "no certificate\n");
+    write_text(options.key, "no key\n");
+    expect_refused(options);
+    ASSERT_EQ(run_child({"/usr/bin/env", "openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes",
+                         "-days", "2", "-subj", "/CN=127.0.0.1", "-addext",
+                         "subjectAltName=IP:127.0.0.1", "-out", cert, "-keyout", key})
+                  .code,
+              0);
+    const PageServer server(options, "", {});
+    ASSERT_TRUE(server.address().starts_with("https://127.0.0.1:")) << server.address();
+    const PageAddress at = page_address(server.address());
+    const auto get_page = [&](const std::string& trusted) {
+        const std::string client =
+            "import ssl, sys, urllib.request as u\n"
+            "c = ssl.create_default_context(cafile=sys.argv[2] or None)\n"
+            "print(u.urlopen(sys.argv[1], context=c, timeout=20).read().decode())\n";
+        const std::string url = fmt::format("https://127.0.0.1:{}/", at.port);
+        return run_child({"/usr/bin/env", "python3", "-c", client, url, trusted}).out;
+    };
+    EXPECT_NE(get_page(cert).find("<canvas"), std::string::npos);
+    EXPECT_EQ(get_page("").find("<canvas"), std::string::npos);
+    const std::string plain = answer_to(at, get("/", fmt::format("127.0.0.1:{}", at.port)));
+    EXPECT_EQ(plain.find("<canvas"), std::string::npos) << plain;
+    EXPECT_NE(get_page(cert).find("<canvas"), std::string::npos);
 }
 
 }  // namespace
