@@ -65,6 +65,20 @@ async function keep(name) {
   writeFileSync(join(folder, name + ".rgb"), Buffer.from(text, "base64"));
   seen.sizes[name] = [width, height];
 }
+// The middle of the panel's first slider's grip, which is found by its colour: SliderGrab in present/window/panel/gui.cpp.
+function firstGrip() {
+  return page.evaluate(() => {
+    const canvas = document.getElementById("screen");
+    const { width, data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    const isGrip = i => Math.hypot(data[i] - 116, data[i + 1] - 81, data[i + 2] - 29) < 6;
+    for (let i = 0; i < data.length; i += 4) {
+      let pixels = 0;
+      while (isGrip(i + 4 * pixels)) ++pixels;
+      if (pixels >= 4) return [(i / 4) % width + pixels / 2, Math.floor(i / 4 / width) + 4];
+    }
+    throw new Error("the panel has no slider");
+  });
+}
 const shot = name => page.screenshot({ path: join(folder, name + ".png") });
 const number = () => page.evaluate(() => window.kiloluxState.number);
 const note = () => page.textContent("#note");
@@ -100,7 +114,7 @@ await act(async () => { await page.keyboard.press("x"); await page.mouse.move(12
 await act(() => page.keyboard.press("Tab"));
 await shot("panel");
 await keep("panel");
-const [x, y] = [Number(process.env.KILOLUX_SLIDER_X), Number(process.env.KILOLUX_SLIDER_Y)];
+const [x, y] = await firstGrip();
 await act(async () => {
   await page.mouse.move(x, y);
   await page.mouse.down();
