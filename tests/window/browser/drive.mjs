@@ -40,7 +40,8 @@ await context.grantPermissions(["clipboard-read", "clipboard-write"], { origin: 
 const page = await context.newPage();
 const complaints = [];
 page.on("pageerror", error => complaints.push(String(error)));
-page.on("console", message => { if (message.type() === "error") complaints.push(message.text()); });
+// Chromium itself logs connections that are refused.
+page.on("console", message => { if (message.type() === "error" && !message.text().includes("ERR_CONNECTION_REFUSED")) complaints.push(message.text()); });
 
 // Until a picture without loss that is newer than `after` has stayed for a while.
 async function rest(after = 0) {
@@ -48,7 +49,7 @@ async function rest(after = 0) {
   for (;;) {
     await page.waitForFunction(n => window.kiloluxState.lossless && window.kiloluxState.number > n, number, { timeout: kPatience });
     const now = await page.evaluate(() => window.kiloluxState.number);
-    await page.waitForTimeout(1500);
+    await page.waitForTimeout(2500);
     number = await page.evaluate(() => window.kiloluxState.number);
     if (number === now) return number;
     number -= 1;
