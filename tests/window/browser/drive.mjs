@@ -84,6 +84,13 @@ const shot = name => page.screenshot({ path: join(folder, name + ".png") });
 const number = () => page.evaluate(() => window.kiloluxState.number);
 const note = () => page.textContent("#note");
 const act = async what => { const before = await number(); await what(); return rest(before); };
+async function copied() {
+  await page.keyboard.press("c");
+  await page.waitForTimeout(1000);
+  const command = await page.evaluate(() => navigator.clipboard.readText());
+  await rest(await number() - 1);
+  return command;
+}
 
 await page.goto(`http://127.0.0.1:${port}/${url.hash}`);
 await rest();
@@ -103,10 +110,7 @@ await act(async () => {
   await page.mouse.move(1279, 719);
 });
 await keep("moved");
-await page.keyboard.press("c");
-await page.waitForTimeout(1000);
-seen.command = await page.evaluate(() => navigator.clipboard.readText());
-await rest(await number() - 1);
+seen.command = await copied();
 
 // A pixel's lists, then the panel, and a slider of it.
 await act(async () => { await page.keyboard.press("x"); await page.mouse.move(640, 360); });
@@ -141,8 +145,9 @@ seen.kept = await page.evaluate(() => {
   return kept;
 });
 await rest(await number());
+seen.flown = await copied();
 
-// Other sizes, a phone among them, turned by a finger.
+// Other sizes, a phone among them, whose finger is on the panel.
 for (const [name, width, height] of [["large", 1920, 1080], ["phone", 390, 844]]) {
   await act(() => page.setViewportSize({ width, height }));
   await shot(name);
@@ -150,6 +155,7 @@ for (const [name, width, height] of [["large", 1920, 1080], ["phone", 390, 844]]
 }
 await act(() => page.touchscreen.tap(200, 400));
 await act(() => page.setViewportSize({ width: 1280, height: 720 }));
+seen.tapped = await copied();
 
 // The connection is lost, and comes back.
 await keep("before");

@@ -32,6 +32,12 @@ fs::path install_playwright(std::string& why) {
     return {};
 }
 
+// The camera's options of a copied command.
+std::string camera_in(const std::string& command) {
+    const std::size_t begin = command.find("--camera-position");
+    return begin == std::string::npos ? "" : command.substr(begin, command.find(" -o") - begin);
+}
+
 class ServedBrowser : public ::testing::Test {
  protected:
     ServedPixels seen(const std::string& name) const {
@@ -61,6 +67,9 @@ TEST_F(ServedBrowser, ShowsAndSteersTheSession) {
     EXPECT_NE(seen("probed"), seen("moved"));
     EXPECT_NE(seen("panel"), seen("moved"));
     EXPECT_NE(seen("slid"), seen("moved"));
+    EXPECT_NE(camera_in(json_["flown"]), camera_in(command));
+    EXPECT_NE(json_["tapped"], json_["flown"]) << "the finger changed no setting";
+    EXPECT_EQ(camera_in(json_["tapped"]), camera_in(json_["flown"]));
     EXPECT_EQ(seen("large").width, 1920);
     EXPECT_EQ(seen("phone").height, 844);
     EXPECT_EQ(json_["lost"], "Connection lost, trying again ...");
