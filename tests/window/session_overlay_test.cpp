@@ -24,7 +24,8 @@ namespace {
 struct PixelChanges {
     int changed = 0, white = 0;
 };
-PixelChanges changes(const fs::path& before, const fs::path& after, const std::array<int, 4>& place) {
+PixelChanges changes(const fs::path& before, const fs::path& after,
+                     const std::array<int, 4>& place) {
     const FloatImage a = read_image(before), b = read_image(after);
     const std::size_t channels = a.channels.size();
     PixelChanges out;
