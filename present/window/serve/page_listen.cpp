@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/window/serve/page_listen.h"
 
+#include <arpa/inet.h>
 #include <libwebsockets.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -25,10 +28,31 @@ void note_complaint(int, const char* line) {
     while (last_complaint().ends_with('\n')) last_complaint().pop_back();
 }
 
+Error cannot_listen(const ServeAddress& address, const std::string& reason) {
+    return Error("--serve: cannot listen at " + text_of(address) + ": " + reason);
+}
+
+// libwebsockets waits without a word for an address that the machine does not have.
+void check_is_own(const ServeAddress& address) {
+    sockaddr_in6 six{};
+    sockaddr_in four{};
+    six.sin6_family = AF_INET6;
+    four.sin_family = AF_INET;
+    const bool is_six = inet_pton(AF_INET6, address.host.c_str(), &six.sin6_addr) == 1;
+    if (!is_six) inet_pton(AF_INET, address.host.c_str(), &four.sin_addr);
+    const int probe = socket(is_six ? AF_INET6 : AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    const int failed = is_six ? bind(probe, reinterpret_cast<const sockaddr*>(&six), sizeof six)
+                              : bind(probe, reinterpret_cast<const sockaddr*>(&four), sizeof four);
+    const int reason = errno;
+    if (probe >= 0) close(probe);
+    if (failed != 0) throw cannot_listen(address, std::strerror(reason));
+}
+
 }  // namespace
 
 lws_context* listen_for_pages(const ServerOptions& options, const lws_protocols* protocols,
                               void* user) {
+    check_is_own(options.address);
     lws_context_creation_info info{};
     info.iface = options.address.host.c_str();
     info.port = options.address.port;
@@ -53,8 +77,7 @@ lws_context* listen_for_pages(const ServerOptions& options, const lws_protocols*
     lws_context* const context = lws_create_context(&info);
     if (context != nullptr) return context;
     const std::string system = errno != 0 ? std::strerror(errno) : "no reason given";
-    throw Error("--serve: cannot listen at " + text_of(options.address) + ": " +
-                (last_complaint().empty() ? system : last_complaint()));
+    throw cannot_listen(options.address, last_complaint().empty() ? system : last_complaint());
 }
 
 }  // namespace kilolux
