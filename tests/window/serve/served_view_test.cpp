@@ -113,8 +113,9 @@ TEST(ServedView, ThePictureAtRestIsThatOfRenderInEveryByte) {
     const ServedPixels moved = rendered_by(command, 640, 400);
     EXPECT_TRUE(page.comes_to(moved)) << command;
     EXPECT_NE(moved, first);
+    const ServedPixels small = rendered_by(command, 320, 240);
     page.send(R"(["size",320,240,1])");
-    EXPECT_TRUE(page.comes_to(rendered_by(command, 320, 240)));
+    EXPECT_TRUE(page.comes_to(small));
 }
 
 TEST(ServedView, SurvivesItsPageAndEndsWhenAsked) {
