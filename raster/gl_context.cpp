@@ -202,6 +202,12 @@ void GlContext::make_current() const {
     }
 }
 
+void GlContext::make_none_current() {
+    // The display is the context's; without one there is nothing to do.
+    if (eglGetCurrentContext() == EGL_NO_CONTEXT) return;
+    eglMakeCurrent(eglGetCurrentDisplay(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+}
+
 std::string gl_string(GLenum name) {
     const GLubyte* text = glGetString(name);
     return text == nullptr ? "" : reinterpret_cast<const char*>(text);

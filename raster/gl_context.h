@@ -21,6 +21,8 @@ class GlContext {
 
     /// Throws Error when the driver refuses.
     void make_current() const;
+    /// In this thread.
+    static void make_none_current();
 
     const std::string& platform() const { return platform_; }  // "surfaceless", "device:0"
     const std::string& vendor() const { return vendor_; }

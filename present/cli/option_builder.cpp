@@ -54,6 +54,7 @@ void add_option(CLI::App& command, const Setting& setting) {
                   ->type_name(text.form)
                   ->default_str(text.default_text.empty() && setting.show ? setting.show()
                                                                           : text.default_text);
+    if (text.form.starts_with('[')) option->expected(0, 1);  // a value may be left out
     option->group(setting.heading)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 }
 

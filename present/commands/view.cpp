@@ -3,7 +3,10 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <memory>
 #include <set>
+#include <utility>
 
 #include "host/base/error.h"
 #include "host/base/log.h"
@@ -13,6 +16,8 @@
 #include "present/image/image_file.h"
 #include "present/window/app/session.h"
 #include "present/window/app/state_file.h"
+#include "present/window/screen/window.h"
+#include "present/window/serve/served_screen.h"
 
 namespace kilolux {
 namespace {
@@ -74,18 +79,7 @@ std::set<std::string> excluded_options(const ViewOptions& options, const CLI::Ap
 // The kept state; values of the command line replace the kept ones. `asked`: before light_scene().
 ViewState start_state(const ViewOptions& options, const CLI::App& command, StateFile& file,
                       const SharedOptions& asked, const Scene& scene, bool keeps_rig) {
-    ViewState state;
-    state.rig = asked.rig;
-    state.emissive_lights = asked.emissive_lights;
-    state.settings = options.shared.settings;
-    state.settings.tails =
-        asked.settings.tails;  // the window chooses anew where they are automatic
-    state.settings.range_budget = asked.settings.range_budget;
-    state.settings.background = options.shared.shown_background;
-    state.settings.reflections = options.shared.maps;
-    state.settings.want.aovs.clear();
-    state.settings.want.probes = true;
-    state.settings.want.radiance = false;
+    ViewState state = first_state(asked, options.shared);
     // Pictures that are counted are made one by one, each complete.
     const bool counts = options.exit_after > 0;
     if (!is_given(command, "--samples") && !counts) state.settings.samples = kRestSamples;
@@ -118,15 +112,57 @@ void check_files(const ViewOptions& options) {
     check_can_write_image(options.screenshot);
 }
 
+std::string window_title(const ViewOptions& options) { return "Kilolux - " + options.shared.scene; }
+
+// Checks options that are wrong together, or name files that cannot be read.
+void check_serving(const ViewOptions& options) {
+    const bool tls = !options.tls_certificate.empty();
+    refuse_if(tls != !options.tls_key.empty(), "--tls-certificate and --tls-key belong together");
+    refuse_if(!options.serve && (tls || options.viewers > 0),
+              std::string(tls ? "--tls-certificate" : "--viewers") + " takes --serve");
+    for (const auto& [name, file] : {std::pair{"--tls-certificate", options.tls_certificate},
+                                     std::pair{"--tls-key", options.tls_key}}) {
+        if (!file.empty() && !std::ifstream(file)) {
+            throw Error(std::string(name) + ": " + file + ": cannot be read");
+        }
+    }
+}
+
+// Throws before the scene is loaded where the machine has no screen, or no port to serve one.
+OpenScreen prepare_screen(const ViewOptions& options) {
+    if (!options.serve) {
+        return [system = std::make_shared<const WindowSystem>()](auto size, const auto& title) {
+            return std::make_unique<Window>(system, size, title);
+        };
+    }
+    const ServerOptions server{*options.serve, options.viewers, options.tls_certificate,
+                               options.tls_key};
+    auto screen = std::make_shared<std::unique_ptr<ServedScreen>>(
+        std::make_unique<ServedScreen>(server, window_title(options)));
+    if (!is_loopback(server.address)) {
+        warn("--serve: other machines can connect" +
+             std::string(server.certificate.empty()
+                             ? ", and nothing is encrypted; --tls-certificate and --tls-key do that"
+                             : ""));
+    }
+    return [screen](auto size, const auto&) {
+        (*screen)->begin(size);
+        std::printf("%s\n", (*screen)->address().c_str());
+        std::fflush(stdout);
+        return std::move(*screen);
+    };
+}
+
 void run_view(ViewOptions& options, const CLI::App& command) {
     begin_command(options.shared);
     check_files(options);
+    check_serving(options);
     SessionOptions session;
     session.exit_after = options.exit_after;
     session.screenshot = options.screenshot;
     if (!options.script.empty()) session.script = read_script(options.script);
     choose_device(options.shared.settings.device);  // throws before a window opens
-    const WindowSystem system;
+    const OpenScreen open_screen = prepare_screen(options);
     StateFile file(options.fresh ? std::filesystem::path() : view_state_file());
     const bool keeps_rig = take_kept_rig(options.shared, command, file);
     AnimatedScene scene = open_animated_scene(options.shared);
@@ -135,10 +171,9 @@ void run_view(ViewOptions& options, const CLI::App& command) {
     note(light_scene(options.shared, scene));
     session.shared = options.shared;
     session.state = start_state(options, command, file, session.asked, scene.scene(), keeps_rig);
-    const Window context({16, 16}, "Kilolux", false);
-    Window window(session.state.window_size, "Kilolux - " + options.shared.scene, true);
-    window.show();
-    ViewSession view(scene, session, file, window, context);
+    const std::unique_ptr<Screen> screen =
+        open_screen(session.state.window_size, window_title(options));
+    ViewSession view(scene, session, file, *screen);
     view.run();
     if (view.stop()) return;
     // All files are written; the process does not wait for a long kernel or compilation.
@@ -149,7 +184,8 @@ void run_view(ViewOptions& options, const CLI::App& command) {
 constexpr const char* kViewExamples =
     "  kilolux view\n"
     "  kilolux view town.glb --lights 20000\n"
-    "  kilolux view --exit-after 3 --screenshot window.png";
+    "  kilolux view --exit-after 3 --screenshot window.png\n"
+    "  kilolux view atrium --serve";
 
 }  // namespace
 
@@ -165,7 +201,18 @@ void visit_settings(ViewOptions& options, const SettingVisitor& f) {
               options.screenshot)
         .text({"--script", "FILE", "",
                "Replay user input, one step per line, then leave; see present/window/README.md"},
-              options.script);
+              options.script)
+        .value({"--serve", "[ADDRESS:PORT]", "",
+                "Show the window in a browser instead: the printed address opens it; without a "
+                "value at 127.0.0.1 and a free port"},
+               options.serve, parse_serve_address,
+               [&options] { return options.serve ? text_of(*options.serve) : std::string(); })
+        .count({"--viewers", "N", "", "Pages that may watch beside the one that drives", kNeither,
+                "1"},
+               options.viewers, {0, 16})
+        .text({"--tls-certificate", "FILE", "", "Serve by https: the certificate (PEM)"},
+              options.tls_certificate)
+        .text({"--tls-key", "FILE", "", "The certificate's key (PEM)"}, options.tls_key);
 }
 
 void add_view_options(CLI::App& command, ViewOptions& options) {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "present/cli/options.h"
 #include "present/program.h"
+#include "present/window/serve/access.h"
 
 namespace kilolux {
 
@@ -12,6 +15,10 @@ struct ViewOptions {
     std::string screenshot;
     std::string script;
     bool fresh = false;
+    std::optional<ServeAddress> serve;  // in a browser; none: in a window
+    int viewers = 0;                    // pages beside the one that drives
+    std::string tls_certificate;        // empty: http
+    std::string tls_key;
     bool operator==(const ViewOptions&) const = default;
 };
 

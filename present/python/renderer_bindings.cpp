@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "present/python/arrays.h"
+#include "present/python/served_session.h"
 #include "present/python/thread_renderer.h"
 
 namespace py = pybind11;
@@ -136,6 +137,20 @@ void add_renderer(py::module_& module) {
         .def("probe",
              [](ThreadRenderer& self, int x, int y) { return probe_dict(self.probe(x, y)); })
         .def("reference", [](ThreadRenderer& self) { return reference_dict(self.reference()); });
+    py::class_<ServedSession>(module, "ServedSession")
+        .def(py::init([](const std::string& scene, const Words& words, const Scene* made,
+                         const Lights& lights, const std::string& address) {
+            RendererOptions options = parse_renderer_options(scene, words);
+            options.shared.automatic_exposure = false;
+            ServerOptions server;
+            server.address = parse_serve_address("serve", address);
+            std::optional<Scene> copy =
+                made != nullptr ? std::optional<Scene>(*made) : std::nullopt;
+            const py::gil_scoped_release other_threads_run;
+            return std::make_unique<ServedSession>(std::move(options), std::move(copy), lights,
+                                                   server);
+        }))
+        .def("address", &ServedSession::address);
 }
 
 }  // namespace kilolux

@@ -30,6 +30,8 @@ class Background {
 
     void signal(int number) const;
     bool has_ended() const;
+    /// What it has written to its standard output so far.
+    std::string out() const { return text_of_file(folder_ / "out"); }
     /// Waits until it ends by itself; throws std::runtime_error after five minutes.
     ChildResult result();
 

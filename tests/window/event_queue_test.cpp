@@ -39,6 +39,23 @@ TEST(EventQueue, TypedTextWaitsUntilAClickHasHadItsEffect) {
     EXPECT_TRUE(queue.empty());
 }
 
+// A touch moves, presses, releases and is away at once. The panel must know the place before the
+// press: else it drags the camera from where the mouse was before.
+TEST(EventQueue, APressIsWhereTheMouseWas) {
+    EventQueue queue;
+    queue.post(MoveEvent{1.0, 2.0});
+    queue.post(MoveEvent{3.0, 4.0});
+    queue.post(button(GLFW_PRESS));
+    queue.post(button(GLFW_RELEASE));
+    queue.post(MoveEvent{-1.0, -1.0});
+    EXPECT_EQ(queue.take(0.01).size(), 2u);
+    const std::vector<InputEvent> click = queue.take(0.01);
+    ASSERT_EQ(click.size(), 2u);
+    EXPECT_EQ(std::get<ButtonEvent>(click[0]).action, GLFW_PRESS);
+    EXPECT_EQ(queue.take(0.01).size(), 1u);
+    EXPECT_TRUE(queue.empty());
+}
+
 TEST(EventQueue, DropsWhatTheUserMeantForAnotherPicture) {
     EventQueue queue;
     queue.post(key(GLFW_KEY_2, GLFW_PRESS));

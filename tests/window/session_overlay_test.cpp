@@ -21,13 +21,14 @@ namespace {
 
 // Pixels of the screenshot's rectangle that differ from the other, and how many of them are nearly
 // white.
-struct Changes {
+struct PixelChanges {
     int changed = 0, white = 0;
 };
-Changes changes(const fs::path& before, const fs::path& after, const std::array<int, 4>& place) {
+PixelChanges changes(const fs::path& before, const fs::path& after,
+                     const std::array<int, 4>& place) {
     const FloatImage a = read_image(before), b = read_image(after);
     const std::size_t channels = a.channels.size();
-    Changes out;
+    PixelChanges out;
     for (int y = place[1]; y < place[1] + place[3]; ++y) {
         for (int x = place[0]; x < place[0] + place[2]; ++x) {
             const std::size_t at = channels * static_cast<std::size_t>(y * a.width + x);
@@ -56,7 +57,7 @@ TEST(Window, LooksIntoClusters) {
     play(script);
     const auto file = [&](const char* name) { return folder / (std::string(name) + ".png"); };
     // The active cluster's box is white and about a tile large. Its lists stand in the lower right.
-    const Changes box = changes(file("start"), file("probed"), {660, 260, 80, 80});
+    const PixelChanges box = changes(file("start"), file("probed"), {660, 260, 80, 80});
     EXPECT_GT(box.white, 15);
     EXPECT_LT(box.changed, 80 * 80 / 2);
     EXPECT_GT(changes(file("start"), file("probed"), {590, 640, 400, 50}).changed, 400 * 45);

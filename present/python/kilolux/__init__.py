@@ -12,6 +12,7 @@ in metres, times in seconds, intensities in candela, angles of arrays in radians
 """
 from ._native import Error, devices, version
 from .lighting import GBuffer, GBufferLighting, LitGBuffer
+from .live import View, show
 from .metrics import flip, flip_map, max_error, psnr, relmse, rmse, ssim
 from .renderer import Frame, Probe, Reference, Renderer, render
 from .scene import Lights, Material, Mesh, Scene
@@ -19,6 +20,6 @@ from .scene import Lights, Material, Mesh, Scene
 __version__ = version()
 __all__ = [
     "Error", "Frame", "GBuffer", "GBufferLighting", "Lights", "LitGBuffer", "Material", "Mesh", "Probe",
-    "Reference", "Renderer", "Scene", "devices", "flip", "flip_map", "max_error", "psnr", "relmse", "render",
-    "rmse", "ssim", "version",
+    "Reference", "Renderer", "Scene", "View", "devices", "flip", "flip_map", "max_error", "psnr", "relmse", "render",
+    "rmse", "show", "ssim", "version",
 ]

@@ -147,8 +147,8 @@ class Renderer:
         if isinstance(scene, Scene) and options.get("lights") is None and scene.lights is not None:
             options["lights"] = scene.lights
         words, lights = self._said(options, True)
-        self._native = _native.Renderer(self._scene, words, scene._native if isinstance(scene, Scene) else None,
-                                        _made_lights(lights or []))
+        self._made = scene._native if isinstance(scene, Scene) else None
+        self._native = _native.Renderer(self._scene, words, self._made, _made_lights(lights or []))
         self._options = options
 
     @staticmethod

@@ -35,13 +35,29 @@ std::string unsaid_lights(std::size_t changed) {
 
 }  // namespace
 
+ViewState first_state(const SharedOptions& asked, const SharedOptions& lit) {
+    ViewState state;
+    state.rig = asked.rig;
+    state.emissive_lights = asked.emissive_lights;
+    state.settings = lit.settings;
+    // The session chooses anew where they are automatic.
+    state.settings.tails = asked.settings.tails;
+    state.settings.range_budget = asked.settings.range_budget;
+    state.settings.background = lit.shown_background;
+    state.settings.reflections = lit.maps;
+    state.settings.want.aovs.clear();
+    state.settings.want.probes = true;
+    state.settings.want.radiance = false;
+    return state;
+}
+
 ViewSession::ViewSession(AnimatedScene& scene, SessionOptions options, StateFile& file,
-                         Window& window, const Window& context)
+                         Screen& screen)
     : scene_(scene.scene()),
       options_(std::move(options)),
       file_(file),
       state_(options_.state),
-      frames_(window,
+      frames_(screen,
               options_.script.empty() ? std::nullopt : std::optional(ScriptPlayer::kFrameSeconds)),
       steering_({choose_camera(options_.shared, scene_), bounds(scene_)}, frames_,
                 options_.script.empty()),
@@ -57,18 +73,17 @@ ViewSession::ViewSession(AnimatedScene& scene, SessionOptions options, StateFile
              .error = error_} {
     worker_ = std::make_unique<RenderWorker>(
         scene_, pictures_.wanted().settings,
-        [&context](bool use) { use ? context.make_current() : Window::make_none_current(); },
-        [this] { frames_.wake(); });
+        [&screen](bool use) { screen.use_worker_context(use); }, [this] { frames_.wake(); });
     if (!options_.script.empty()) {
         script_ = std::make_unique<ScriptPlayer>(
             options_.script,
-            ScriptStage{window, frames_.ui(), [this] { return picture_state(); },
+            ScriptStage{screen, frames_.ui(), [this] { return picture_state(); },
                         [this](const std::filesystem::path& out) { frames_.save(out); }});
     }
 }
 
 void ViewSession::run() {
-    while (!frames_.window().should_close()) {
+    while (!frames_.screen().should_close()) {
         check_interrupt();
         worker_->check_begun();
         begin_frame();
@@ -89,7 +104,7 @@ void ViewSession::run() {
 }
 
 bool ViewSession::stop() {
-    frames_.window().hide();
+    frames_.screen().hide();
     return worker_->stop(kStopPatience);
 }
 
@@ -115,7 +130,7 @@ void ViewSession::begin_frame() {
 }
 
 void ViewSession::remember_size() {
-    const auto size = frames_.window().size_to_keep();
+    const auto size = frames_.screen().size_to_keep();
     state_.window_size = {std::max(size[0], kSmallestKept), std::max(size[1], kSmallestKept)};
 }
 
@@ -180,7 +195,7 @@ void ViewSession::fail(const std::string& what) {
 
 // Minimised, and no script or --exit-after waits for pictures.
 bool ViewSession::is_resting() const {
-    return frames_.window().is_minimised() && !script_ && options_.exit_after == 0;
+    return frames_.screen().is_minimised() && !script_ && options_.exit_after == 0;
 }
 
 bool ViewSession::is_busy() const {
@@ -196,7 +211,7 @@ PictureState ViewSession::picture_state() const {
 
 void ViewSession::obey_actions(Actions actions) {
     if (lights_.are_awaited()) hold_back(actions);
-    Window& window = frames_.window();
+    Screen& screen = frames_.screen();
     const auto save = [this](const char* extension) {
         saving_.begin(*worker_, pictures_.wanted_whole(), lights_.options(), extension);
     };
@@ -221,8 +236,8 @@ void ViewSession::obey_actions(Actions actions) {
     if (actions.close_help) messages_.show_help(false);
     if (actions.dismiss_failure) messages_.dismiss_failure();
     if (actions.reset_settings) reset_settings();
-    if (actions.full_screen) window.set_full_screen(!window.is_full_screen());
-    if (actions.close) window.close();
+    if (actions.full_screen) screen.set_full_screen(!screen.is_full_screen());
+    if (actions.close) screen.close();
 }
 
 // Holds back actions that need the picture's settings, which belong to lights that are not there
@@ -252,7 +267,7 @@ void ViewSession::reset_settings() {
 }
 
 void ViewSession::copy(const std::string& text, const std::string& remark) {
-    frames_.window().set_clipboard(text);
+    frames_.screen().set_clipboard(text);
     messages_.show("copied" + remark + ": " + text, frames_.clock().now());
     frames_.redraw_soon();
 }

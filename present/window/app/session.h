@@ -32,14 +32,16 @@ struct SessionOptions {
     std::filesystem::path screenshot;  // written at the end; empty: none
 };
 
-/// The window: input changes the state and the camera, the worker renders what they describe, and
-/// every frame shows the latest picture with the panel beside it.
+/// What a session begins with that has the options `asked`, which light_scene() made `lit`.
+ViewState first_state(const SharedOptions& asked, const SharedOptions& lit);
+
+/// Input changes the state and the camera, the worker renders what they describe, and every frame
+/// of the screen shows the latest picture with the panel beside it.
 class ViewSession {
  public:
-    /// `window` is current and on the screen; `context` becomes the worker's, and so do the lights
-    /// of the scene. Changes of the state go to `file`.
-    ViewSession(AnimatedScene& scene, SessionOptions options, StateFile& file, Window& window,
-                const Window& context);
+    /// The screen's context is current. Its other one becomes the worker's, and so do the lights of
+    /// the scene. Changes of the state go to `file`.
+    ViewSession(AnimatedScene& scene, SessionOptions options, StateFile& file, Screen& screen);
 
     /// Until the window is closed, exit_after pictures are shown, or a signal comes: Interrupted.
     /// Nothing is rendered while it is minimised, unless a script or exit_after waits for pictures.

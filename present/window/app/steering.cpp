@@ -38,7 +38,7 @@ CameraInput camera_input(const SteeringInput& from, CameraMode mode) {
 CameraInput Steering::motion(CameraMode mode) const {
     const Gui& gui = frames_.gui();
     return camera_input({frames_.input(), !gui.wants_keys(), !gui.wants_mouse(), dragging_,
-                         frames_.window().size()[1]},
+                         frames_.screen().size()[1]},
                         mode);
 }
 
@@ -48,11 +48,11 @@ void Steering::steer(CameraMode mode) {
                          input.was_button_down(kMiddle);
     const bool begins = pressed && !dragging_ && !frames_.gui().wants_mouse();
     if (begins) dragging_ = true;
-    if (begins && grabs_ && mode == CameraMode::fly) frames_.window().grab_mouse(true);
+    if (begins && grabs_ && mode == CameraMode::fly) frames_.screen().grab_mouse(true);
     rig_.move(motion(mode), mode, frames_.clock().frame_seconds());
     if (dragging_ && !pressed) {
         dragging_ = false;
-        if (grabs_) frames_.window().grab_mouse(false);
+        if (grabs_) frames_.screen().grab_mouse(false);
     }
 }
 

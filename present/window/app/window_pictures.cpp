@@ -25,12 +25,12 @@ WindowPictures::WindowPictures(const ViewState& state, const WindowFrames& frame
       scale_(state.target_ms) {}
 
 ScreenPlace WindowPictures::place() const {
-    const auto size = frames_.window().size();
+    const auto size = frames_.screen().size();
     return {panel_width(), 0.0f, static_cast<float>(size[0]), static_cast<float>(size[1])};
 }
 
 BoxTarget WindowPictures::area() const {
-    return area_beside(panel_width(), frames_.window().size(), frames_.window().framebuffer());
+    return area_beside(panel_width(), frames_.screen().size(), frames_.screen().framebuffer());
 }
 
 ShownPicture WindowPictures::shown_picture() const {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/window/panel/gui.h"
 
-#include <backends/imgui_impl_glfw.h>
+#include <GLFW/glfw3.h>
 #include <backends/imgui_impl_opengl3.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 namespace kilolux {
 namespace {
@@ -78,53 +80,141 @@ void set_style(float scale) {
     style.ScaleAllSizes(scale);
 }
 
+struct KeyPair {
+    ImGuiKey_ gui;
+    int glfw;
+};
+
+// The keys that text fields know.
+constexpr KeyPair kKeys[] = {{ImGuiKey_Tab, GLFW_KEY_TAB},
+                             {ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
+                             {ImGuiKey_RightArrow, GLFW_KEY_RIGHT},
+                             {ImGuiKey_UpArrow, GLFW_KEY_UP},
+                             {ImGuiKey_DownArrow, GLFW_KEY_DOWN},
+                             {ImGuiKey_PageUp, GLFW_KEY_PAGE_UP},
+                             {ImGuiKey_PageDown, GLFW_KEY_PAGE_DOWN},
+                             {ImGuiKey_Home, GLFW_KEY_HOME},
+                             {ImGuiKey_End, GLFW_KEY_END},
+                             {ImGuiKey_Insert, GLFW_KEY_INSERT},
+                             {ImGuiKey_Delete, GLFW_KEY_DELETE},
+                             {ImGuiKey_Backspace, GLFW_KEY_BACKSPACE},
+                             {ImGuiKey_Space, GLFW_KEY_SPACE},
+                             {ImGuiKey_Enter, GLFW_KEY_ENTER},
+                             {ImGuiKey_Escape, GLFW_KEY_ESCAPE},
+                             {ImGuiKey_KeyPadEnter, GLFW_KEY_KP_ENTER},
+                             {ImGuiKey_A, GLFW_KEY_A},
+                             {ImGuiKey_C, GLFW_KEY_C},
+                             {ImGuiKey_V, GLFW_KEY_V},
+                             {ImGuiKey_X, GLFW_KEY_X},
+                             {ImGuiKey_Y, GLFW_KEY_Y},
+                             {ImGuiKey_Z, GLFW_KEY_Z}};
+
+Cursor cursor_of(ImGuiMouseCursor cursor) {
+    switch (cursor) {
+        case ImGuiMouseCursor_TextInput:
+            return Cursor::text;
+        case ImGuiMouseCursor_ResizeNS:
+            return Cursor::vertical;
+        case ImGuiMouseCursor_ResizeEW:
+            return Cursor::horizontal;
+        case ImGuiMouseCursor_Hand:
+            return Cursor::hand;
+        default:
+            return Cursor::arrow;
+    }
+}
+
+void take_key(const KeyEvent& event) {
+    ImGuiIO& io = ImGui::GetIO();
+    if (event.key < 0 || event.key >= IM_ARRAYSIZE(io.KeysDown)) return;
+    if (event.action != GLFW_REPEAT) io.KeysDown[event.key] = event.action == GLFW_PRESS;
+    const auto either = [&io](int a, int b) { return io.KeysDown[a] || io.KeysDown[b]; };
+    io.KeyCtrl = either(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL);
+    io.KeyShift = either(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT);
+    io.KeyAlt = either(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT);
+    io.KeySuper = either(GLFW_KEY_LEFT_SUPER, GLFW_KEY_RIGHT_SUPER);
+}
+
 }  // namespace
 
-Gui::Gui(const Window& window) : window_(window), scale_(window.content_scale()) {
+Gui::Gui(Screen& screen) : screen_(screen) {
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;  // the program keeps its own settings
     io.ConfigWindowsMoveFromTitleBarOnly = true;
-    load_font(scale_);
-    set_style(scale_);
-    ImGui_ImplGlfw_InitForOpenGL(window.handle(), false);
+    io.BackendFlags |= ImGuiBackendFlags_HasMouseCursors;
+    for (const auto [gui, glfw] : kKeys) io.KeyMap[gui] = glfw;
+    install_callbacks();
     ImGui_ImplOpenGL3_Init("#version 450");
+    fit_fonts();
 }
 
 Gui::~Gui() {
     ImGui_ImplOpenGL3_Shutdown();
-    ImGui_ImplGlfw_Shutdown();
     ImGui::DestroyContext();
 }
 
+void Gui::install_callbacks() {
+    ImGuiIO& io = ImGui::GetIO();
+    io.ClipboardUserData = this;
+    io.SetClipboardTextFn = [](void* gui, const char* text) {
+        static_cast<Gui*>(gui)->screen_.set_clipboard(text);
+    };
+    io.GetClipboardTextFn = [](void* gui) {
+        Gui& self = *static_cast<Gui*>(gui);
+        self.clipboard_ = self.screen_.clipboard();
+        return self.clipboard_.c_str();
+    };
+}
+
+// Loads the fonts for the screen's density. A page can move to a screen of another one.
+void Gui::fit_fonts() {
+    const float scale = screen_.content_scale();
+    if (scale == scale_) return;
+    const bool first = scale_ == 0.0f;
+    scale_ = scale;
+    ImGui::GetIO().Fonts->Clear();
+    load_font(scale);
+    set_style(scale);
+    if (first) return;  // the first frame makes the texture
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ImGui_ImplOpenGL3_CreateFontsTexture();
+}
+
 void Gui::take(const InputEvent& event) {
-    GLFWwindow* window = window_.handle();
+    ImGuiIO& io = ImGui::GetIO();
     if (const auto* key = std::get_if<KeyEvent>(&event)) {
-        ImGui_ImplGlfw_KeyCallback(window, key->key, key->scancode, key->action, key->modifiers);
+        take_key(*key);
     } else if (const auto* text = std::get_if<TextEvent>(&event)) {
-        ImGui_ImplGlfw_CharCallback(window, text->code_point);
-    } else if (const auto* button = std::get_if<ButtonEvent>(&event)) {
-        ImGui_ImplGlfw_MouseButtonCallback(window, button->button, button->action,
-                                           button->modifiers);
+        io.AddInputCharacter(text->code_point);
     } else if (const auto* wheel = std::get_if<WheelEvent>(&event)) {
-        ImGui_ImplGlfw_ScrollCallback(window, wheel->x, wheel->y);
+        io.MouseWheelH += static_cast<float>(wheel->x);
+        io.MouseWheel += static_cast<float>(wheel->y);
     } else if (const auto* focus = std::get_if<FocusEvent>(&event)) {
-        ImGui_ImplGlfw_WindowFocusCallback(window, focus->focused ? 1 : 0);
+        io.AddFocusEvent(focus->focused);
     }
 }
 
 void Gui::begin(const InputState& input, std::optional<double> seconds) {
+    fit_fonts();
     ImGui_ImplOpenGL3_NewFrame();
-    ImGui_ImplGlfw_NewFrame();
-    // The backend would ask the window system for the mouse. Ours comes from events, also a
-    // script's.
     ImGuiIO& io = ImGui::GetIO();
+    const auto size = screen_.size(), pixels = screen_.framebuffer();
+    io.DisplaySize = {static_cast<float>(size[0]), static_cast<float>(size[1])};
+    if (size[0] > 0 && size[1] > 0) {
+        io.DisplayFramebufferScale = {static_cast<float>(pixels[0]) / io.DisplaySize.x,
+                                      static_cast<float>(pixels[1]) / io.DisplaySize.y};
+    }
     io.MousePos = {static_cast<float>(input.mouse().x), static_cast<float>(input.mouse().y)};
     for (std::size_t i = 0; i < InputState::kButtons; ++i) {
         io.MouseDown[i] = input.was_button_down(i);
     }
-    if (seconds) io.DeltaTime = static_cast<float>(*seconds);
+    const auto now = std::chrono::steady_clock::now();
+    const std::chrono::duration<double> measured = now - std::exchange(last_frame_, now);
+    // Dear ImGui takes no frame of length 0.
+    io.DeltaTime = static_cast<float>(std::max(seconds.value_or(measured.count()), 1e-6));
+    screen_.set_cursor(cursor_of(ImGui::GetMouseCursor()));
     ImGui::NewFrame();
 }
 

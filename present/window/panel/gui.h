@@ -3,10 +3,11 @@
 
 #include <imgui.h>
 
+#include <chrono>
 #include <optional>
+#include <string>
 
-#include "present/window/screen/input.h"
-#include "present/window/screen/window.h"
+#include "present/window/screen/screen.h"
 
 namespace kilolux {
 
@@ -15,11 +16,11 @@ inline constexpr ImGuiWindowFlags kPinned =
     ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings;
 
-/// Dear ImGui in a window: its context, fonts and look, fed with the window's events.
+/// Dear ImGui on a screen: its context, fonts and look, fed with the screen's events.
 class Gui {
  public:
-    /// The window's context is current, and outlives this.
-    explicit Gui(const Window& window);
+    /// The session's OpenGL context is current, and outlives this.
+    explicit Gui(Screen& screen);
     ~Gui();
     Gui(const Gui&) = delete;
     Gui& operator=(const Gui&) = delete;
@@ -32,7 +33,7 @@ class Gui {
 
     /// Draws the widgets described since begin() to the current framebuffer.
     void draw();
-    /// Ends the frame without drawing, while the window is not visible.
+    /// Ends the frame without drawing, while nobody sees the screen.
     void skip();
 
     /// Whether the mouse is on a panel, and whether keys belong to a text field.
@@ -43,8 +44,13 @@ class Gui {
     float scaled(float pixels) const { return scale_ * pixels; }
 
  private:
-    const Window& window_;
-    float scale_;
+    void install_callbacks();
+    void fit_fonts();
+
+    Screen& screen_;
+    float scale_ = 0.0f;     // of fonts and lengths; 0: none are loaded
+    std::string clipboard_;  // that was read last
+    std::chrono::steady_clock::time_point last_frame_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace kilolux

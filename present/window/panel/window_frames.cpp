@@ -4,24 +4,24 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "host/base/error.h"
 #include "present/image/image_file.h"
+#include "present/window/screen/read_screen.h"
 #include "raster/gl_context.h"
 
 namespace kilolux {
 
-WindowFrames::WindowFrames(Window& window, std::optional<double> fixed_seconds)
-    : window_(window), fixed_seconds_(fixed_seconds), gui_(window) {
-    window_.on_event([this](const InputEvent& event) { events_.post(event); });
+WindowFrames::WindowFrames(Screen& screen, std::optional<double> fixed_seconds)
+    : screen_(screen), fixed_seconds_(fixed_seconds), gui_(screen) {
+    screen_.on_event([this](const InputEvent& event) { events_.post(event); });
 }
 
-WindowFrames::~WindowFrames() { window_.on_event({}); }
+WindowFrames::~WindowFrames() { screen_.on_event({}); }
 
 void WindowFrames::begin(double seconds, const std::function<void()>& then) {
     clock_.end_frame();
-    window_.wait_events(seconds);
+    screen_.wait_events(seconds);
     then();
     clock_.begin_frame(seconds, fixed_seconds_);
     for (const InputEvent& event : events_.take(fixed_seconds_ ? 0.0 : clock_.busy_seconds())) {
@@ -36,7 +36,7 @@ void WindowFrames::redraw_soon(int frames) { frames_to_draw_ = std::max(frames_t
 
 void WindowFrames::wake() {
     woken_ = true;
-    wake_windows();
+    screen_.wake();
 }
 
 void WindowFrames::begin_description() {
@@ -46,15 +46,15 @@ void WindowFrames::begin_description() {
 
 void WindowFrames::paint(bool vsync) {
     if (frames_to_draw_ > 0) --frames_to_draw_;
-    window_.set_vsync(vsync);
-    if (window_.is_minimised()) return gui_.skip();
+    screen_.set_vsync(vsync);
+    if (screen_.is_minimised()) return gui_.skip();
     draw();
-    window_.swap();
+    screen_.swap();
 }
 
 void WindowFrames::draw() {
-    const auto pixels = window_.framebuffer();
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    const auto pixels = screen_.framebuffer();
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, screen_.framebuffer_name());
     glViewport(0, 0, pixels[0], pixels[1]);
     glClearColor(0.04f, 0.04f, 0.045f, 1.0f);
     glClear(GL_COLOR_BUFFER_BIT);
@@ -67,24 +67,8 @@ void WindowFrames::save(const std::filesystem::path& file) {
         throw UsageError("--screenshot: " + file.string() +
                          ": the window is display-referred: PNG, JPEG or TIFF");
     }
-    const auto pixels = window_.framebuffer();
-    Frame frame;
-    frame.width = pixels[0];
-    frame.height = pixels[1];
-    const std::size_t row = 4 * static_cast<std::size_t>(frame.width);
-    std::vector<std::uint8_t> rows(row * static_cast<std::size_t>(frame.height));
     draw();
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
-    glReadBuffer(GL_BACK);
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(0, 0, frame.width, frame.height, GL_RGBA, GL_UNSIGNED_BYTE, rows.data());
-    frame.display.resize(rows.size());
-    for (std::size_t y = 0; y < static_cast<std::size_t>(frame.height); ++y) {
-        const std::size_t from = (static_cast<std::size_t>(frame.height) - 1 - y) * row;
-        std::memcpy(&frame.display[y * row], &rows[from], row);
-    }
-    for (std::size_t i = 3; i < frame.display.size(); i += 4) frame.display[i] = 255;
-    write_image(file, frame);
+    write_image(file, read_screen(screen_));
 }
 
 }  // namespace kilolux

@@ -10,16 +10,16 @@
 #include "present/window/panel/widgets.h"
 #include "present/window/screen/event_queue.h"
 #include "present/window/screen/frame_clock.h"
-#include "present/window/screen/window.h"
+#include "present/window/screen/screen.h"
 
 namespace kilolux {
 
-/// The frames of a window: their time, their input, and how they are drawn.
+/// The frames of a screen: their time, their input, and how they are drawn.
 class WindowFrames {
  public:
-    /// `window`'s context is current. `fixed_seconds`: the length of every frame, for scripts;
+    /// The screen's context is current. `fixed_seconds`: the length of every frame, for scripts;
     /// none: frames are measured, and input that has waited too long is dropped.
-    WindowFrames(Window& window, std::optional<double> fixed_seconds);
+    WindowFrames(Screen& screen, std::optional<double> fixed_seconds);
     ~WindowFrames();
 
     /// Begins a frame: waits up to `seconds` for an event, calls `then`, and takes the input.
@@ -40,7 +40,7 @@ class WindowFrames {
     /// Writes what was described. Throws UsageError for a format of linear pictures.
     void save(const std::filesystem::path& file);
 
-    Window& window() const { return window_; }
+    Screen& screen() const { return screen_; }
     const InputState& input() const { return input_; }
     const FrameClock& clock() const { return clock_; }
     const Gui& gui() const { return gui_; }
@@ -49,7 +49,7 @@ class WindowFrames {
  private:
     void draw();
 
-    Window& window_;
+    Screen& screen_;
     std::optional<double> fixed_seconds_;
     FrameClock clock_;
     EventQueue events_;

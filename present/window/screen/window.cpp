@@ -12,7 +12,11 @@
 namespace kilolux {
 namespace {
 
-constexpr const char* kWithoutWindow = "; kilolux render makes pictures without a window";
+constexpr const char* kWithoutWindow =
+    "; kilolux view --serve shows it in a browser, kilolux render makes pictures without a window";
+
+constexpr int kCursorShapes[] = {GLFW_ARROW_CURSOR, GLFW_IBEAM_CURSOR, GLFW_VRESIZE_CURSOR,
+                                 GLFW_HRESIZE_CURSOR, GLFW_HAND_CURSOR};
 
 std::string glfw_error() {
     const char* text = nullptr;
@@ -54,48 +58,61 @@ WindowSystem::WindowSystem() {
 
 WindowSystem::~WindowSystem() { glfwTerminate(); }
 
-Window::Window(std::array<int, 2> size, const std::string& title, bool visible) {
+void Window::Destroy::operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
+
+Window::Context Window::make_context(std::array<int, 2> size, const std::string& title,
+                                     bool visible) {
     set_hints(visible);
-    window_ = glfwCreateWindow(size[0], size[1], title.c_str(), nullptr, nullptr);
-    if (window_ == nullptr) {
+    Context out;
+    out.window.reset(glfwCreateWindow(size[0], size[1], title.c_str(), nullptr, nullptr));
+    if (!out.window) {
         throw Error("window: no OpenGL 4.5 core context (" + glfw_error() +
                     "); Debian's libgl1-mesa-dri and libglx-mesa0 provide one" + kWithoutWindow);
     }
-    glfwSetWindowUserPointer(window_, this);
-    make_current();
-    messages_ = record_gl_errors();
-    install_callbacks();
+    glfwMakeContextCurrent(out.window.get());
+    out.messages = record_gl_errors();
+    return out;
 }
 
-Window::~Window() { glfwDestroyWindow(window_); }
+Window::Window(std::shared_ptr<const WindowSystem> system, std::array<int, 2> size,
+               const std::string& title)
+    : system_(std::move(system)),
+      worker_(make_context({16, 16}, title, false)),
+      shown_(make_context(size, title, true)) {
+    for (const int shape : kCursorShapes) cursors_.push_back(glfwCreateStandardCursor(shape));
+    glfwSetWindowUserPointer(handle(), this);
+    install_callbacks();
+    glfwShowWindow(handle());
+}
 
 void Window::install_callbacks() {
-    glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int code, int action, int modifiers) {
+    glfwSetKeyCallback(handle(), [](GLFWwindow* w, int key, int code, int action, int modifiers) {
         window_of(w).post(KeyEvent{key, code, action, modifiers});
     });
-    glfwSetCharCallback(window_,
+    glfwSetCharCallback(handle(),
                         [](GLFWwindow* w, unsigned code) { window_of(w).post(TextEvent{code}); });
-    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int modifiers) {
+    glfwSetMouseButtonCallback(handle(), [](GLFWwindow* w, int button, int action, int modifiers) {
         window_of(w).post(ButtonEvent{button, action, modifiers});
     });
-    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
+    glfwSetCursorPosCallback(handle(), [](GLFWwindow* w, double x, double y) {
         window_of(w).post(MoveEvent{x, y});
     });
-    glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) {
+    glfwSetScrollCallback(handle(), [](GLFWwindow* w, double x, double y) {
         window_of(w).post(WheelEvent{x, y});
     });
-    glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int focused) {
+    glfwSetWindowFocusCallback(handle(), [](GLFWwindow* w, int focused) {
         window_of(w).post(FocusEvent{focused == GLFW_TRUE});
     });
-    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { window_of(w).post(RedrawEvent{}); });
+    glfwSetWindowRefreshCallback(handle(), [](GLFWwindow* w) { window_of(w).post(RedrawEvent{}); });
     glfwSetFramebufferSizeCallback(
-        window_, [](GLFWwindow* w, int, int) { window_of(w).post(RedrawEvent{}); });
+        handle(), [](GLFWwindow* w, int, int) { window_of(w).post(RedrawEvent{}); });
 }
 
-void Window::make_current() const { glfwMakeContextCurrent(window_); }
-void Window::make_none_current() { glfwMakeContextCurrent(nullptr); }
+void Window::use_worker_context(bool use) const {
+    glfwMakeContextCurrent(use ? worker_.window.get() : nullptr);
+}
 
-void Window::wait_events(double seconds) const {
+void Window::wait_events(double seconds) {
     if (seconds > 0.0) {
         glfwWaitEventsTimeout(seconds);
     } else {
@@ -103,37 +120,36 @@ void Window::wait_events(double seconds) const {
     }
 }
 
-bool Window::should_close() const { return glfwWindowShouldClose(window_) == GLFW_TRUE; }
-void Window::close() const { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
-void Window::swap() const { glfwSwapBuffers(window_); }
-void Window::show() const { glfwShowWindow(window_); }
-void Window::hide() const { glfwHideWindow(window_); }
+bool Window::should_close() const { return glfwWindowShouldClose(handle()) == GLFW_TRUE; }
+void Window::close() { glfwSetWindowShouldClose(handle(), GLFW_TRUE); }
+void Window::swap() { glfwSwapBuffers(handle()); }
+void Window::hide() { glfwHideWindow(handle()); }
 
 std::array<int, 2> Window::size() const {
     std::array<int, 2> out{};
-    glfwGetWindowSize(window_, &out[0], &out[1]);
+    glfwGetWindowSize(handle(), &out[0], &out[1]);
     return out;
 }
 
 std::array<int, 2> Window::framebuffer() const {
     std::array<int, 2> out{};
-    glfwGetFramebufferSize(window_, &out[0], &out[1]);
+    glfwGetFramebufferSize(handle(), &out[0], &out[1]);
     return out;
 }
 
 float Window::content_scale() const {
     float x = 1.0f, y = 1.0f;
-    glfwGetWindowContentScale(window_, &x, &y);
+    glfwGetWindowContentScale(handle(), &x, &y);
     return x > 0.0f ? x : 1.0f;
 }
 
 bool Window::is_minimised() const {
     const auto pixels = framebuffer();
-    return glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE || pixels[0] == 0 ||
+    return glfwGetWindowAttrib(handle(), GLFW_ICONIFIED) == GLFW_TRUE || pixels[0] == 0 ||
            pixels[1] == 0;
 }
 
-void Window::resize(std::array<int, 2> size) const { glfwSetWindowSize(window_, size[0], size[1]); }
+void Window::resize(std::array<int, 2> size) { glfwSetWindowSize(handle(), size[0], size[1]); }
 
 void Window::set_vsync(bool on) {
     if (vsync_ == on) return;
@@ -141,21 +157,21 @@ void Window::set_vsync(bool on) {
     glfwSwapInterval(on ? 1 : 0);
 }
 
-bool Window::is_full_screen() const { return glfwGetWindowMonitor(window_) != nullptr; }
+bool Window::is_full_screen() const { return glfwGetWindowMonitor(handle()) != nullptr; }
 
 void Window::set_full_screen(bool on) {
     if (on == is_full_screen()) return;
     auto& p = windowed_place_;
     if (!on) {
-        glfwSetWindowMonitor(window_, nullptr, p[0], p[1], p[2], p[3], GLFW_DONT_CARE);
+        glfwSetWindowMonitor(handle(), nullptr, p[0], p[1], p[2], p[3], GLFW_DONT_CARE);
         return;
     }
-    glfwGetWindowPos(window_, &p[0], &p[1]);
-    glfwGetWindowSize(window_, &p[2], &p[3]);
+    glfwGetWindowPos(handle(), &p[0], &p[1]);
+    glfwGetWindowSize(handle(), &p[2], &p[3]);
     GLFWmonitor* monitor = glfwGetPrimaryMonitor();
     if (monitor == nullptr) return;
     const GLFWvidmode* mode = glfwGetVideoMode(monitor);
-    glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+    glfwSetWindowMonitor(handle(), monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 
 std::array<int, 2> Window::size_to_keep() const {
@@ -167,14 +183,23 @@ std::array<int, 2> Window::size_to_keep() const {
     return {usual(pixels[0]), usual(pixels[1])};
 }
 
-void Window::grab_mouse(bool on) const {
-    glfwSetInputMode(window_, GLFW_CURSOR, on ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+void Window::grab_mouse(bool on) {
+    glfwSetInputMode(handle(), GLFW_CURSOR, on ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
 }
 
-void Window::set_clipboard(const std::string& text) const {
-    glfwSetClipboardString(window_, text.c_str());
+void Window::set_cursor(Cursor cursor) {
+    glfwSetCursor(handle(), cursors_.at(static_cast<std::size_t>(cursor)));
 }
 
-void wake_windows() { glfwPostEmptyEvent(); }
+void Window::set_clipboard(const std::string& text) {
+    glfwSetClipboardString(handle(), text.c_str());
+}
+
+std::string Window::clipboard() const {
+    const char* text = glfwGetClipboardString(handle());
+    return text == nullptr ? "" : text;
+}
+
+void Window::wake() { glfwPostEmptyEvent(); }
 
 }  // namespace kilolux

@@ -9,7 +9,7 @@
 
 #include "present/window/panel/widgets.h"
 #include "present/window/screen/input.h"
-#include "present/window/screen/window.h"
+#include "present/window/screen/screen.h"
 
 namespace kilolux {
 
@@ -29,7 +29,7 @@ enum class PictureState { complete, pending, endless };
 
 /// The window's functions that a script uses.
 struct ScriptStage {
-    const Window& window;
+    Screen& screen;
     const Widgets& ui;
     std::function<PictureState()> picture_state;
     std::function<void(const std::filesystem::path&)> screenshot;

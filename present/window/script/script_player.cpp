@@ -83,7 +83,7 @@ void ScriptPlayer::begin(const ScriptStep& step) {
     if (name == "key") {
         add_key(step.words[1], number(step, 2));
     } else if (name == "resize") {
-        stage_.window.resize(
+        stage_.screen.resize(
             {static_cast<int>(number(step, 1)), static_cast<int>(number(step, 2))});
         add_wait(2);
     } else if (name == "frames") {
@@ -96,7 +96,7 @@ void ScriptPlayer::begin(const ScriptStep& step) {
     } else if (name == "screenshot") {
         stage_.screenshot(step.words[1]);
     } else if (name == "close") {
-        stage_.window.close();
+        stage_.screen.close();
     } else if (name == "drag" || name == "move" || name == "wheel") {
         begin_mouse(step);
     } else {
@@ -107,7 +107,7 @@ void ScriptPlayer::begin(const ScriptStep& step) {
 void ScriptPlayer::begin_mouse(const ScriptStep& step) {
     const std::string& name = step.words[0];
     if (name == "wheel") {
-        stage_.window.post(WheelEvent{0.0, number(step, 1)});
+        stage_.screen.post(WheelEvent{0.0, number(step, 1)});
         return add_wait(1);
     }
     const MoveEvent from{number(step, 1), number(step, 2)};
@@ -169,7 +169,7 @@ void ScriptPlayer::add_key(const std::string& name, double seconds) {
     const Keys keys = keys_of(place_, name);
     const auto send = [this, keys](int action) {
         actions_.push_back([this, keys, action] {
-            stage_.window.post(KeyEvent{keys.key, 0, action, keys.modifiers});
+            stage_.screen.post(KeyEvent{keys.key, 0, action, keys.modifiers});
             return true;
         });
     };
@@ -181,7 +181,7 @@ void ScriptPlayer::add_key(const std::string& name, double seconds) {
 
 void ScriptPlayer::add_press(int button, int action, int modifiers) {
     actions_.push_back([this, button, action, modifiers] {
-        stage_.window.post(ButtonEvent{button, action, modifiers});
+        stage_.screen.post(ButtonEvent{button, action, modifiers});
         return true;
     });
     add_wait(1);
@@ -193,7 +193,7 @@ void ScriptPlayer::add_reach(const std::string& widget, int modifiers) {
     actions_.push_back([this, widget, modifiers] {
         move_to(place_of(widget).middle_x(), place_of(widget).middle_y());
         if (modifiers != 0) {
-            stage_.window.post(KeyEvent{GLFW_KEY_LEFT_CONTROL, 0, GLFW_PRESS, modifiers});
+            stage_.screen.post(KeyEvent{GLFW_KEY_LEFT_CONTROL, 0, GLFW_PRESS, modifiers});
         }
         return true;
     });
@@ -206,7 +206,7 @@ void ScriptPlayer::add_click(const std::string& widget, int modifiers) {
     add_press(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, modifiers);
     if (modifiers == 0) return;
     actions_.push_back([this] {
-        stage_.window.post(KeyEvent{GLFW_KEY_LEFT_CONTROL, 0, GLFW_RELEASE, 0});
+        stage_.screen.post(KeyEvent{GLFW_KEY_LEFT_CONTROL, 0, GLFW_RELEASE, 0});
         return true;
     });
 }
@@ -239,7 +239,7 @@ void ScriptPlayer::add_value(const std::string& widget, const std::string& text)
     add_wait(1);
     for (const char c : text) {
         actions_.push_back([this, c] {
-            stage_.window.post(TextEvent{static_cast<unsigned char>(c)});
+            stage_.screen.post(TextEvent{static_cast<unsigned char>(c)});
             return true;
         });
     }
@@ -266,15 +266,15 @@ bool ScriptPlayer::reach(const std::string& widget) {
                                 widget, found.middle_y()));
     }
     if (place == nullptr) return false;
-    const double height = stage_.window.size()[1];
+    const double height = stage_.screen.size()[1];
     move_to(20.0, 0.5 * height);
-    stage_.window.post(WheelEvent{0.0, place->middle_y() > 0.5 * height ? -1.0 : 1.0});
+    stage_.screen.post(WheelEvent{0.0, place->middle_y() > 0.5 * height ? -1.0 : 1.0});
     return false;
 }
 
 void ScriptPlayer::move_to(double x, double y) {
     mouse_ = {x, y};
-    stage_.window.post(mouse_);
+    stage_.screen.post(mouse_);
 }
 
 }  // namespace kilolux

@@ -170,10 +170,16 @@ void walk_render() {
 void walk_view() {
     walk(add_view_options,
          [](const ViewOptions& o) {
-             const auto& [shared, exit_after, screenshot, script, fresh] = o;
-             return std::tie(shared, exit_after, screenshot, script, fresh);
+             const auto& [shared, exit_after, screenshot, script, fresh, serve, viewers,
+                          certificate, key] = o;
+             return std::tie(shared, exit_after, screenshot, script, fresh, serve, viewers,
+                             certificate, key);
          },
-         {{"--screenshot", "a.png"}, {"--script", "a.txt"}});
+         {{"--screenshot", "a.png"},
+          {"--script", "a.txt"},
+          {"--serve", "127.0.0.1:8080"},
+          {"--tls-certificate", "a.pem"},
+          {"--tls-key", "b.pem"}});
 }
 
 void walk_bench() {
