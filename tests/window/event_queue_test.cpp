@@ -39,8 +39,9 @@ TEST(EventQueue, TypedTextWaitsUntilAClickHasHadItsEffect) {
     EXPECT_TRUE(queue.empty());
 }
 
-// A finger's tap or a whole drag can arrive at once. The panel must know the place before the press:
-// else it drags the camera from where the mouse was before; and the last place before the release.
+// A finger's tap or a whole drag can arrive at once. The panel must know the place before the
+// press: else it drags the camera from where the mouse was before; and the last place before the
+// release.
 TEST(EventQueue, ButtonsGoDownAndUpWhereTheMouseWas) {
     EventQueue queue;
     queue.post(MoveEvent{1.0, 2.0});

@@ -18,10 +18,10 @@ class EventQueue {
 
     void post(const InputEvent& event) { waiting_.push_back(event); }
 
-    /// The events of this frame. Buttons of the mouse and its moves are in different frames, so that
-    /// the panel sees the mouse where a button went down or up. Keys and text after a press, and
-    /// later events, wait until the press has had its effect. `busy_seconds`: how long no events
-    /// were taken.
+    /// The events of this frame. Buttons of the mouse and its moves are in different frames, so
+    /// that the panel sees the mouse where a button went down or up. Keys and text after a press,
+    /// and later events, wait until the press has had its effect. `busy_seconds`: how long no
+    /// events were taken.
     std::vector<InputEvent> take(double busy_seconds);
 
     bool empty() const { return waiting_.empty(); }

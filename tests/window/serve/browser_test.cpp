@@ -81,7 +81,9 @@ TEST_F(ServedBrowser, ShowsAndSteersTheSession) {
     EXPECT_NE(settings["exposure"].dump(), "0") << "the slider was not moved";
     // Copies for whoever looks at the pages.
     const char* pages = std::getenv("KILOLUX_KEEP_PAGES");
-    if (pages != nullptr) fs::copy(folder_.path(), pages, fs::copy_options::overwrite_existing);
+    if (pages != nullptr)
+        fs::copy(folder_.path(), pages,
+                 fs::copy_options::overwrite_existing | fs::copy_options::recursive);
 }
 
 }  // namespace
