@@ -25,6 +25,17 @@ MODELS = {
 WHITE = {"playcanvas"}
 
 
+def _smooth(position, normal):
+    """Pixels that no edge is near: their neighbours lie nearly in their plane. Rasterisers shift edges."""
+    out = np.zeros(normal.shape[:2], bool)
+    out[1:-1, 1:-1] = np.linalg.norm(normal[1:-1, 1:-1], axis=2) > 0.5
+    for dy, dx in ((0, 1), (0, -1), (1, 0), (-1, 0)):
+        other_n, other_p = np.roll(normal, (dy, dx), (0, 1)), np.roll(position, (dy, dx), (0, 1))
+        off_plane = np.abs(np.einsum("ijk,ijk->ij", other_p - position, normal))
+        out &= (np.einsum("ijk,ijk->ij", other_n, normal) > 0.99) & (off_plane < 0.02)
+    return out
+
+
 class Surfaces:
     """The surfaces that the centres of every `step`-th pixel see, from Kilolux's float32 layers."""
 
@@ -32,7 +43,9 @@ class Surfaces:
         self.chosen = (slice(step // 2, None, step),) * 2  # rows, columns
         frame = kilolux.render(str(scene.glb), resolution=size, lights=0, rig="none", ambient=0, gbuffer="full",
                                aov=["position", "normal", "depth"], quiet=True)
-        position, normal = (frame.aovs[name][self.chosen] for name in ("position", "normal"))
+        position, normal = frame.aovs["position"], frame.aovs["normal"]
+        self.smooth = _smooth(position, normal)[self.chosen]
+        position, normal = position[self.chosen], normal[self.chosen]
         self.shape = position.shape[:2]
         self.position = position.reshape(-1, 3).astype(float)
         self.normal = normal.reshape(-1, 3).astype(float)
