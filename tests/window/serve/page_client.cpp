@@ -7,7 +7,9 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 #include <stdexcept>
 #include <utility>
@@ -24,6 +26,11 @@ double seconds_until(Clock::time_point end) {
 Clock::time_point after(double seconds) {
     return Clock::now() +
            std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+// For poll(), rounded up: a wait that ends early would look like a connection that has ended.
+int milliseconds(double seconds) {
+    return static_cast<int>(std::ceil(1e3 * std::max(seconds, 0.0)));
 }
 
 }  // namespace
@@ -76,7 +83,7 @@ bool PageConnection::send(const std::string& bytes) const {
 
 std::string PageConnection::receive(double seconds, std::size_t most) {
     pollfd wait{socket_, POLLIN, 0};
-    if (poll(&wait, 1, static_cast<int>(1e3 * std::max(seconds, 0.0))) <= 0) return "";
+    if (poll(&wait, 1, milliseconds(seconds)) <= 0) return "";
     std::string out(most, '\0');
     const ssize_t count = recv(socket_, out.data(), out.size(), 0);
     out.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
@@ -87,7 +94,7 @@ bool PageConnection::is_closed(double seconds) {
     const auto end = after(seconds);
     while (seconds_until(end) > 0.0) {
         pollfd wait{socket_, POLLIN, 0};
-        if (poll(&wait, 1, static_cast<int>(1e3 * seconds_until(end))) <= 0) continue;
+        if (poll(&wait, 1, milliseconds(seconds_until(end))) <= 0) continue;
         char bytes[4096];
         if (recv(socket_, bytes, sizeof bytes, 0) <= 0) return true;
     }
@@ -187,13 +194,15 @@ int PageClient::farewell(double seconds) {
            static_cast<unsigned char>(frame->payload[1]);
 }
 
-ReceivedPicture received_picture(const PageFrame& frame) {
+ReceivedPicture received_picture(const std::optional<PageFrame>& frame) {
     constexpr std::size_t kHead = 17;
     ReceivedPicture out;
-    if (frame.payload.size() < kHead) throw std::runtime_error("a picture without a head");
-    std::memcpy(&out.number, frame.payload.data(), sizeof out.number);
-    out.lossless = frame.payload[4] == 1;
-    out.file = frame.payload.substr(kHead);
+    if (!frame) throw std::runtime_error("no picture came");
+    const std::string& bytes = frame->payload;
+    if (bytes.size() < kHead) throw std::runtime_error("a picture without a head");
+    std::memcpy(&out.number, bytes.data(), sizeof out.number);
+    out.lossless = bytes[4] == 1;
+    out.file = bytes.substr(kHead);
     return out;
 }
 

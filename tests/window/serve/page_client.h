@@ -85,6 +85,6 @@ struct ReceivedPicture {
     bool lossless = false;
     std::string file;
 };
-ReceivedPicture received_picture(const PageFrame& frame);
+ReceivedPicture received_picture(const std::optional<PageFrame>& frame);
 
 }  // namespace kilolux

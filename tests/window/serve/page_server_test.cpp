@@ -60,7 +60,7 @@ class HeardServer {
         while (picture.number != number) {  // a new page gets the one before first
             const auto frame = page.next_of(2, kSoon);
             ASSERT_TRUE(frame);
-            picture = received_picture(*frame);
+            picture = received_picture(frame);
             page.send(fmt::format(R"(["shown",{}])", picture.number));
         }
         EXPECT_EQ(picture.file, "picture");
@@ -180,7 +180,7 @@ TEST(PageServer, OnePageDrivesAndOthersWatch) {
     watcher.send(R"(["move",1,2])");  // is not obeyed
     server.expect_works(driver, 1);
     EXPECT_EQ(server.inputs(), 1u);
-    EXPECT_EQ(received_picture(*watcher.next_of(2, kSoon)).number, 1u);
+    EXPECT_EQ(received_picture(watcher.next_of(2, kSoon)).number, 1u);
     watcher.send(R"(["shown",1])");
     server->tell_driver(R"({"cursor":"text"})");
     EXPECT_NE(driver.next_of(1, kSoon)->payload.find("cursor"), std::string::npos);
@@ -196,7 +196,7 @@ TEST(PageServer, APageThatWasLoadedAgainTakesItsOldPlace) {
     server.show(1);
     ASSERT_TRUE(old.next_of(2, kSoon));
     PageClient again = server.page("same");
-    EXPECT_EQ(received_picture(*again.next_of(2, kSoon)).number, 1u);
+    EXPECT_EQ(received_picture(again.next_of(2, kSoon)).number, 1u);
     again.send(R"(["shown",1])");
     server.expect_works(again, 2);
     EXPECT_EQ(old.farewell(kSoon), 1006);
@@ -209,14 +209,14 @@ TEST(PageServer, OnePictureIsUnderWayAndTheNewestFollows) {
     PageClient page = server.page();
     EXPECT_TRUE(server->is_waiting());
     server.show(1);
-    ASSERT_EQ(received_picture(*page.next_of(2, kSoon)).number, 1u);
+    ASSERT_EQ(received_picture(page.next_of(2, kSoon)).number, 1u);
     EXPECT_FALSE(server->is_waiting());
     for (std::uint32_t number = 2; number < 50; ++number) server.show(number);
     EXPECT_FALSE(page.next_of(2, 0.5));
     page.send(R"(["shown",7])");  // not the one under way
     EXPECT_FALSE(page.next_of(2, 0.5));
     page.send(R"(["shown",1])");
-    EXPECT_EQ(received_picture(*page.next_of(2, kSoon)).number, 49u);
+    EXPECT_EQ(received_picture(page.next_of(2, kSoon)).number, 49u);
     EXPECT_FALSE(page.next_of(2, 0.5));
 }
 
@@ -347,7 +347,7 @@ TEST(PageServer, ASlowPageHoldsOnePicture) {
     for (std::uint32_t number = 2; number < 30; ++number) {
         const auto frame = page.next_of(2, kSoon);
         ASSERT_TRUE(frame);
-        page.send(fmt::format(R"(["shown",{}])", received_picture(*frame).number));
+        page.send(fmt::format(R"(["shown",{}])", received_picture(frame).number));
         server.show(number, large);
     }
     EXPECT_LT(resident_kib() - before, 16 * 1024);

@@ -34,7 +34,7 @@ class ShowingPage {
             if (!frame) throw std::runtime_error("no picture");
             if (frame->opcode == 1) texts_.push_back(frame->payload);
             if (frame->opcode != 2) continue;
-            const ReceivedPicture out = received_picture(*frame);
+            const ReceivedPicture out = received_picture(frame);
             send(fmt::format(R"(["shown",{}])", out.number));
             return out;
         }
@@ -78,7 +78,7 @@ class ShowingPage {
             if (!frame) return std::nullopt;
             if (frame->opcode == 1) texts_.push_back(frame->payload);
             if (frame->opcode != 2) continue;
-            const ReceivedPicture picture = received_picture(*frame);
+            const ReceivedPicture picture = received_picture(frame);
             send(fmt::format(R"(["shown",{}])", picture.number));
             const auto* bytes = reinterpret_cast<const unsigned char*>(picture.file.data());
             if (picture.lossless)
