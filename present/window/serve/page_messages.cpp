@@ -14,8 +14,8 @@ namespace {
 
 using PageJson = nlohmann::json;
 
-constexpr int kMostPixels = 8192;  // of an edge
-constexpr double kFarthest = 1e5;  // from the page's corner [pixel]
+constexpr int kMostPixels = 8192;      // of an edge
+constexpr double kFarthestMove = 1e5;  // from the page's corner [pixel]
 constexpr double kMostClicks = 100.0;
 constexpr std::size_t kLongestText = 512;  // characters
 constexpr std::size_t kLongestTab = 64;    // characters
@@ -116,8 +116,8 @@ PageMessage button_message(const PageValues& values) {
 
 PageMessage move_message(const PageValues& values) {
     values.expect(2);
-    return InputMessage{MoveEvent{values.number(1, -kFarthest, kFarthest),
-                                  values.number(2, -kFarthest, kFarthest)}};
+    return InputMessage{MoveEvent{values.number(1, -kFarthestMove, kFarthestMove),
+                                  values.number(2, -kFarthestMove, kFarthestMove)}};
 }
 
 PageMessage wheel_message(const PageValues& values) {

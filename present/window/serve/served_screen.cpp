@@ -25,8 +25,8 @@ double unix_ms() {
 constexpr const char* kCssCursors[] = {"default", "text", "ns-resize", "ew-resize", "pointer"};
 
 std::string page_word(const char* name, const nlohmann::json& value) {
-    using Json = nlohmann::json;
-    return Json{{name, value}}.dump(-1, ' ', false, Json::error_handler_t::replace);
+    const nlohmann::json word{{name, value}};
+    return word.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 }  // namespace
