@@ -31,7 +31,7 @@ std::string host_in_url(const ServeAddress& address);
 /// 64 hexadecimal digits from the system's random numbers. Throws Error.
 std::string make_secret();
 
-/// Whether both are equal, in a time that tells nothing of where they differ.
+/// Whether both are equal. The time taken does not depend on where they differ.
 bool same_secret(std::string_view a, std::string_view b);
 
 /// Whether a request may name this host ("localhost:8080"): an address, localhost or the machine's

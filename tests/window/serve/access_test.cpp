@@ -65,7 +65,7 @@ TEST(ServeAccess, HostsOfOtherSitesAreRefused) {
                              "10.0.0.7:9999"}) {
         EXPECT_TRUE(is_allowed_host(host)) << host;
     }
-    // A name that resolves to this machine belongs to whoever registered it.
+    // Anybody can register a name that resolves to this machine.
     for (const char* host :
          {"", "evil.example", "evil.example:80", "127.0.0.1.evil.example", "localhost.evil.example",
           "[::1.evil", "[", "]", ":", "127.0.0.1@evil"}) {

@@ -79,7 +79,7 @@ TEST_F(ServedBrowser, ShowsAndSteersTheSession) {
     EXPECT_EQ(view.program().result().code, 0);
     const nlohmann::json settings = nlohmann::json::parse(view.kept());
     EXPECT_NE(settings["exposure"].dump(), "0") << "the slider was not moved";
-    // Copies for whoever looks at the pages.
+    // Copies of the pages, to be looked at.
     const char* pages = std::getenv("KILOLUX_KEEP_PAGES");
     if (pages != nullptr)
         fs::copy(folder_.path(), pages,
