@@ -6,6 +6,7 @@ import json
 import pathlib
 import struct
 import subprocess
+from typing import Callable, NamedTuple
 
 import numpy as np
 
@@ -14,15 +15,17 @@ def _window(d2, r):
     return np.clip(1.0 - (d2 / (r * r))**2, 0.0, 1.0)
 
 
-# Radiance of a white surface by 1 cd at the squared distance d2 [m^2], range r, without the cosine.
+class Model(NamedTuple):
+    falloff: Callable  # radiance of a white surface by 1 cd at the squared distance d2 [m^2], range r, without the cosine
+    is_white: bool = False  # the renderer's page gives the surface an albedo of 1
+
+
 MODELS = {
-    "kilolux": lambda d2, r: _window(d2, r) / np.maximum(d2, 1e-4) / np.pi,
-    "three": lambda d2, r: _window(d2, r)**2 / np.maximum(d2, 0.01) / np.pi,
-    "babylon": lambda d2, r: np.maximum(0.0, 1.0 - np.sqrt(d2) / r),
-    "playcanvas": lambda d2, r: 16.0 / (d2 + 1.0) * _window(d2, r)**2,
+    "kilolux": Model(lambda d2, r: _window(d2, r) / np.maximum(d2, 1e-4) / np.pi),
+    "three": Model(lambda d2, r: _window(d2, r)**2 / np.maximum(d2, 0.01) / np.pi),
+    "babylon": Model(lambda d2, r: np.maximum(0.0, 1.0 - np.sqrt(d2) / r)),
+    "playcanvas": Model(lambda d2, r: 16.0 / (d2 + 1.0) * _window(d2, r)**2, is_white=True),
 }
-# PlayCanvas is given a white surface.
-WHITE = {"playcanvas"}
 
 
 def _smooth(position, normal):
@@ -54,7 +57,7 @@ class Surfaces:
 
 def picture(model: str, surfaces: Surfaces, lights, time: float, albedo: float) -> np.ndarray:
     """[height, width, 3]. Sums are those of float64; lights out of range are left out, which add exactly 0."""
-    falloff = MODELS[model]
+    falloff, is_white = MODELS[model]
     p, n = surfaces.position[surfaces.drawn], surfaces.normal[surfaces.drawn]
     out = np.zeros_like(p)
     for place, rgb in zip(lights.places(time), lights.rgb):
@@ -68,7 +71,7 @@ def picture(model: str, surfaces: Surfaces, lights, time: float, albedo: float) 
         light = falloff(d2, lights.radius) * np.maximum(cosine, 0.0)
         out[near] += light[:, None] * rgb
     whole = np.zeros((surfaces.position.shape[0], 3))
-    whole[surfaces.drawn] = out * (1.0 if model in WHITE else albedo)
+    whole[surfaces.drawn] = out * (1.0 if is_white else albedo)
     return whole.reshape(*surfaces.shape, 3)
 
 
@@ -101,4 +104,7 @@ def score(program: pathlib.Path, folder: pathlib.Path, name: str, rgb: np.ndarra
     write_exr(mine, rgb)
     write_exr(theirs, reference)
     words = [str(program), "score", str(mine), "--reference", str(theirs), "--json"]
-    return json.loads(subprocess.run(words, check=True, capture_output=True, text=True).stdout)
+    done = subprocess.run(words, capture_output=True, text=True)
+    if done.returncode != 0:
+        raise RuntimeError(done.stderr.strip())
+    return json.loads(done.stdout)
