@@ -11,7 +11,7 @@ struct EmbeddedFile {
     std::string_view text;
 };
 
-/// The sources of kernels and shaders and the texts of the benchmark that this binary holds; made
+/// The texts that this binary holds: kernels, shaders, the served page, the benchmark's texts; made
 /// by host/base/embed.cmake.
 std::span<const EmbeddedFile> embedded_files();
 

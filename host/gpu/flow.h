@@ -194,7 +194,8 @@ struct Radiance {
     uint groups = 0;
 
     std::size_t plane_size() const { return std::size_t{view.stride} * view.height; }
-    std::size_t floats() const { return 3 * (std::size_t{1} + groups) * plane_size(); }
+    uint plane_count() const { return 3 * (1 + groups); }
+    std::size_t floats() const { return plane_count() * plane_size(); }
 };
 
 /// Light that the display shows as a code of its own, whatever the tone curve makes of it.

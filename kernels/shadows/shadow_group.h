@@ -6,9 +6,9 @@
 #include "kernels/shadows/cast_shadows.h"
 #include "kernels/shadows/shadow_cast.h"
 
-// A work-group takes every SPLIT-th light of a tile.
+// A work-group takes every SPLIT-th light of a tile; split_of() of the host.
 #ifndef SPLIT
-#define SPLIT 8
+#define SPLIT 1
 #endif
 #define NODES_AT_ONCE (GROUP / SHADOW_WIDTH)
 // Most triangles that wait for their test.

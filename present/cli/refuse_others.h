@@ -11,9 +11,9 @@
 
 namespace kilolux {
 
-/// Throws UsageError "<option>: <why>, so it does not go with <other>" where the command line holds
-/// `option` and others than its companions: they would be ignored. Options of messages and of the
-/// configuration always go.
+/// If `option` is given: throws UsageError "<option>: <why>, so it does not go with <other>" for
+/// the first other one, which would be ignored. Its companions are allowed, and so are options of
+/// messages and of the configuration.
 inline void refuse_others(const CLI::App& command, const std::string& option, const char* why,
                           std::set<std::string> companions = {}) {
     const CLI::Option* found = command.get_option_no_throw(option);

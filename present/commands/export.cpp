@@ -131,7 +131,7 @@ void visit_settings(ExportOptions& options, const SettingVisitor& f) {
                 "Scene: .glb holds everything, .gltf has its buffer and images beside it"},
                options.output, exported_file)
         .text({"--benchmark", "DIR", "",
-               "In place of a scene: six scenes of many lights with their views and float64 "
+               "In place of a scene: scenes of many lights with their views and float64 "
                "reference pictures, for `kilolux score`; minutes on two CPU cores"},
               options.benchmark);
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/commands/view.h"
 
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <memory>
 #include <set>
@@ -116,14 +118,15 @@ std::string window_title(const ViewOptions& options) { return "Kilolux - " + opt
 
 // Checks options that are wrong together, or name files that cannot be read.
 void check_serving(const ViewOptions& options) {
-    const bool tls = !options.tls_certificate.empty();
-    refuse_if(tls != !options.tls_key.empty(), "--tls-certificate and --tls-key belong together");
-    refuse_if(!options.serve && (tls || options.viewers > 0),
-              std::string(tls ? "--tls-certificate" : "--viewers") + " takes --serve");
-    for (const auto& [name, file] : {std::pair{"--tls-certificate", options.tls_certificate},
-                                     std::pair{"--tls-key", options.tls_key}}) {
+    const ServerOptions& server = options.server;
+    const bool tls = !server.certificate.empty();
+    refuse_if(tls != !server.key.empty(), "--tls-certificate and --tls-key belong together");
+    refuse_if(!options.serve && (tls || server.viewers > 0),
+              std::string(tls ? "--tls-certificate" : "--viewers") + ": needs --serve");
+    for (const auto& [name, file] :
+         {std::pair{"--tls-certificate", server.certificate}, std::pair{"--tls-key", server.key}}) {
         if (!file.empty() && !std::ifstream(file)) {
-            throw Error(std::string(name) + ": " + file + ": cannot be read");
+            throw Error(std::string(name) + ": " + file + ": " + std::strerror(errno));
         }
     }
 }
@@ -135,16 +138,10 @@ OpenScreen prepare_screen(const ViewOptions& options) {
             return std::make_unique<Window>(system, size, title);
         };
     }
-    const ServerOptions server{*options.serve, options.viewers, options.tls_certificate,
-                               options.tls_key};
+    ServerOptions server = options.server;
+    server.address = *options.serve;
     auto screen = std::make_shared<std::unique_ptr<ServedScreen>>(
         std::make_unique<ServedScreen>(server, window_title(options)));
-    if (!is_loopback(server.address)) {
-        warn("--serve: other machines can connect" +
-             std::string(server.certificate.empty()
-                             ? ", and nothing is encrypted; --tls-certificate and --tls-key do that"
-                             : ""));
-    }
     return [screen](auto size, const auto&) {
         (*screen)->begin(size);
         std::printf("%s\n", (*screen)->address().c_str());
@@ -209,10 +206,10 @@ void visit_settings(ViewOptions& options, const SettingVisitor& f) {
                [&options] { return options.serve ? text_of(*options.serve) : std::string(); })
         .count({"--viewers", "N", "", "Pages that may watch beside the one that drives", kNeither,
                 "1"},
-               options.viewers, {0, 16})
+               options.server.viewers, {0, 16})
         .text({"--tls-certificate", "FILE", "", "Serve by https: the certificate (PEM)"},
-              options.tls_certificate)
-        .text({"--tls-key", "FILE", "", "The certificate's key (PEM)"}, options.tls_key);
+              options.server.certificate)
+        .text({"--tls-key", "FILE", "", "The certificate's key (PEM)"}, options.server.key);
 }
 
 void add_view_options(CLI::App& command, ViewOptions& options) {

@@ -5,7 +5,7 @@
 
 #include "present/cli/options.h"
 #include "present/program.h"
-#include "present/window/serve/access.h"
+#include "present/window/serve/page_server.h"
 
 namespace kilolux {
 
@@ -16,9 +16,7 @@ struct ViewOptions {
     std::string script;
     bool fresh = false;
     std::optional<ServeAddress> serve;  // in a browser; none: in a window
-    int viewers = 0;                    // pages beside the one that drives
-    std::string tls_certificate;        // empty: http
-    std::string tls_key;
+    ServerOptions server;               // but its address
     bool operator==(const ViewOptions&) const = default;
 };
 

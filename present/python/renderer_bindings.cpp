@@ -150,7 +150,11 @@ void add_renderer(py::module_& module) {
             return std::make_unique<ServedSession>(std::move(options), std::move(copy), lights,
                                                    server);
         }))
-        .def("address", &ServedSession::address);
+        .def("address", &ServedSession::address)
+        .def("close", [](ServedSession& self) {
+            const py::gil_scoped_release other_threads_run;
+            self.close();
+        });
 }
 
 }  // namespace kilolux

@@ -52,6 +52,7 @@ ServedSession::ServedSession(RendererOptions options, std::optional<Scene> made,
             run(std::move(options), std::move(made), std::move(lights));
         } catch (const std::exception& error) {
             warn(std::string("show: ") + error.what());
+            screen_->end(std::string("The session has ended: ") + error.what());
         }
         screen_->hide();
         closing_.get_future().wait();
@@ -66,7 +67,8 @@ ServedSession::ServedSession(RendererOptions options, std::optional<Scene> made,
     }
 }
 
-ServedSession::~ServedSession() {
+void ServedSession::close() {
+    if (!thread_.joinable()) return;
     screen_->close();
     screen_->wake();
     closing_.set_value();

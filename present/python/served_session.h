@@ -22,12 +22,14 @@ class ServedSession {
     /// where there is another one in this process, and as the command does.
     ServedSession(RendererOptions options, std::optional<Scene> made,
                   std::vector<SceneLight> lights, const ServerOptions& server);
-    /// Ends it.
-    ~ServedSession();
+    ~ServedSession() { close(); }
     ServedSession(const ServedSession&) = delete;
     ServedSession& operator=(const ServedSession&) = delete;
 
     const std::string& address() const { return address_; }
+
+    /// Ends it, after the picture that is being made.
+    void close();
 
  private:
     void run(RendererOptions options, std::optional<Scene> made, std::vector<SceneLight> lights);

@@ -90,7 +90,7 @@ void run_every_kernel(const Variant& v) {
     shape.width = v.width;
     shape.height = 17;
     const View view = make_view(shape);
-    RandomLights mix;
+    RandomLightOptions mix;
     mix.count = v.light_count;
     mix.range_max = 30;
     mix.spots = 0.3;

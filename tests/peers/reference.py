@@ -17,7 +17,7 @@ def _window(d2, r):
 
 class Model(NamedTuple):
     falloff: Callable  # radiance of a white surface by 1 cd at the squared distance d2 [m^2], range r, without the cosine
-    is_white: bool = False  # the renderer's page gives the surface an albedo of 1
+    is_white: bool = False  # its surface has albedo 1, for it takes colours as sRGB
 
 
 MODELS = {

@@ -2,61 +2,20 @@
 // Exported files are valid by the Khronos validator, which npm installs.
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cstdio>
-#include <cstdlib>
 #include <glm/gtc/matrix_transform.hpp>
+#include <sstream>
 
 #include "host/scene/generated/scenes.h"
 #include "host/scene/lights/light_generator.h"
 #include "tests/scene/export_scenes.h"
 #include "tests/support/gltf_seeds.h"
 #include "tests/support/messages.h"
-#include "tests/support/paths.h"
+#include "tests/support/npm.h"
 
 namespace kilolux {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Output {
-    int status = 0;
-    std::string text;
-};
-
-Output run(const std::string& command) {
-    Output out;
-    FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-    if (pipe == nullptr) return {-1, "cannot run " + command};
-    std::array<char, 4096> part;
-    while (const std::size_t count = fread(part.data(), 1, part.size(), pipe)) {
-        out.text.append(part.data(), count);
-    }
-    out.status = pclose(pipe);
-    return out;
-}
-
-// The folder of the installed validator; empty, with the reason in `why`, where it cannot be
-// installed.
-fs::path install_validator(std::string& why) {
-    const fs::path source = fs::path(source_root()) / "tests" / "gltf_validator";
-    const fs::path folder = fs::path(program_file()).parent_path() / "gltf_validator";
-    for (const char* tool : {"node", "npm"}) {
-        if (run(std::string(tool) + " --version").status == 0) continue;
-        why = std::string(tool) + " is not installed";
-        return {};
-    }
-    if (fs::exists(folder / "node_modules" / "gltf-validator" / "index.js")) return folder;
-    fs::create_directories(folder);
-    for (const char* name : {"package.json", "package-lock.json"}) {
-        fs::copy_file(source / name, folder / name, fs::copy_options::overwrite_existing);
-    }
-    const Output npm =
-        run("npm ci --ignore-scripts --no-audit --no-fund --prefix '" + folder.string() + "'");
-    if (npm.status == 0) return folder;
-    why = "npm cannot install gltf-validator: " + npm.text;
-    return {};
-}
 
 Scene sheared_scene() {
     Scene scene = scene_of_everything();
@@ -80,14 +39,16 @@ Scene lit(const std::string& name) {
 
 TEST(ExportSceneValidator, FindsNoErrorAndNoWarning) {
     std::string why;
-    const fs::path validator = install_validator(why);
+    const fs::path validator =
+        install_npm("gltf_validator", "gltf-validator", {"node", "npm"}, why);
     if (validator.empty()) GTEST_SKIP() << why;
     const TempFolder folder;
-    std::string files;
+    const fs::path script = fs::path(source_root()) / "tests" / "gltf_validator" / "validate.js";
+    std::vector<std::string> words = {"/usr/bin/env", "node", script.string(), validator.string()};
     int count = 0;
     const auto add = [&](const Scene& scene, const std::string& name) {
         write_export(export_scene(scene, folder.path() / name), folder.path());
-        files += " '" + (folder.path() / name).string() + "'";
+        words.push_back((folder.path() / name).string());
         ++count;
     };
     add(scene_of_everything(), "everything.glb");
@@ -100,18 +61,17 @@ TEST(ExportSceneValidator, FindsNoErrorAndNoWarning) {
     write_file(folder.path() / "converted.glb", converted_features_file().glb());
     add(load_scene(folder.path() / "converted.glb"), "converted.glb");
     add({}, "empty.glb");
-    const fs::path script = fs::path(source_root()) / "tests" / "gltf_validator" / "validate.js";
-    const Output out = run("node '" + script.string() + "' '" + validator.string() + "'" + files);
-    ASSERT_EQ(out.status, 0) << out.text;
+    const ChildResult out = run_child(words);
+    ASSERT_EQ(out.code, 0) << out.err;
     int validated = 0;
-    std::istringstream lines(out.text);
+    std::istringstream lines(out.out);
     for (std::string line; std::getline(lines, line);) {
         const bool is_fault = line.starts_with("0 ") || line.starts_with("1 ");
         // A material with everything is double-sided glass with a volume, too.
         EXPECT_FALSE(is_fault && !contains(line, "KHR_MATERIALS_VOLUME_DOUBLE_SIDED")) << line;
         if (line.starts_with("validated ")) ++validated;
     }
-    EXPECT_EQ(validated, count) << out.text;
+    EXPECT_EQ(validated, count) << out.out;
 }
 
 }  // namespace

@@ -27,7 +27,8 @@ Camera parallel_camera(double near, double far) {
     return camera;
 }
 
-LightingCase camera_case(const Camera& camera, const DepthOf& depth, const RandomLights& mix) {
+LightingCase camera_case(const Camera& camera, const DepthOf& depth,
+                         const RandomLightOptions& mix) {
     LightingCase input;
     const View view = view_of(camera, 97, 65);
     input.image = make_synthetic(view, {}, depth);
@@ -183,7 +184,7 @@ void try_orthographic(const Gpu& gpu, Findings& findings) {
 }
 
 void try_off_centre(const Gpu& gpu, Findings& findings) {
-    const RandomLights mix{.count = 600};
+    const RandomLightOptions mix{.count = 600};
     const DepthOf depth = noise_depth(0.2, 60.0, 0.1, 4);
     for (const glm::dvec2 shear : {glm::dvec2(0.5, -0.5), glm::dvec2(-0.5, 0.5), glm::dvec2(0)}) {
         Camera camera;

@@ -214,7 +214,7 @@ Light spot_light(const Light& point, glm::dvec3 axis, double inner, double outer
     return light;
 }
 
-std::vector<Light> random_lights(const View& view, const RandomLights& mix) {
+std::vector<Light> random_lights(const View& view, const RandomLightOptions& mix) {
     Random random(mix.seed);
     std::vector<Light> lights;
     const bool orthographic = view.orthographic != 0;

@@ -103,7 +103,7 @@ Light point_light(const glm::dvec3& position, double range,
 Light spot_light(const Light& point, glm::dvec3 axis, double inner, double outer);
 
 /// How random_lights() draws.
-struct RandomLights {
+struct RandomLightOptions {
     std::uint32_t count = 100;
     double z_near = 0.2;  // depths of the lights, log-uniform [m]
     double z_far = 60.0;
@@ -115,7 +115,7 @@ struct RandomLights {
 };
 
 /// Lights in and around the frustum of a perspective view (or the box of an orthographic one).
-std::vector<Light> random_lights(const View& view, const RandomLights& mix);
+std::vector<Light> random_lights(const View& view, const RandomLightOptions& mix);
 
 LightInput upload_lights(const Gpu& gpu, const std::vector<Light>& lights,
                          const std::vector<DirectionalLight>& directional = {});

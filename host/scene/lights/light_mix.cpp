@@ -129,9 +129,9 @@ std::vector<SceneLight> all_lights(const Scene& scene, const LightOptions& gener
     for (SceneLight& light : out) {
         light = placed_light(light, camera.world_from_view, camera.position);
     }
-    const std::vector<SceneLight> drifting =
+    const std::vector<SceneLight> made =
         generate_lights(mixed_generated(generated, scene, mix), scene, time);
-    out.insert(out.end(), drifting.begin(), drifting.end());
+    out.insert(out.end(), made.begin(), made.end());
     return out;
 }
 

@@ -43,8 +43,8 @@ std::vector<SceneLight> mixed_lights(const Scene& scene, const LightMix& mix);
 /// The same; `groups` keeps each light's group from call to call.
 std::vector<SceneLight> mixed_lights(const Scene& scene, const LightMix& mix, GroupNumbers& groups);
 
-/// All lights of a scene at `time` [s]: its own, those that follow the camera placed by `camera`,
-/// then the generated ones; with the intensities that the mix gives them.
+/// The scene's own lights, then the generated ones, at `time` [s], with the intensities that the
+/// mix gives them. Headlights are placed by `camera`.
 std::vector<SceneLight> all_lights(const Scene& scene, const LightOptions& generated,
                                    const LightMix& mix, const Camera& camera, double time);
 

@@ -17,13 +17,15 @@ inline constexpr StageInfo kAdaptiveSamplesStage = {"adaptive_samples", StageGro
 /// are unbiased.
 class AdaptiveSamples {
  public:
-    /// Bytes of a pixel: both halves' luminance, its variance, and taken(). And those of its
-    /// radiance, and of that of each group: both halves and the mean.
-    static constexpr std::size_t kPixelBytes = (2 * 2 + 1) * sizeof(float) + sizeof(uint);
+    static constexpr uint kLuminancePlanes = 2;  // of a half: state_planes() of the kernels
+    /// Bytes of a pixel without its radiance: luminance of both halves, its variance, taken().
+    static constexpr std::size_t kPixelBytes =
+        (2 * kLuminancePlanes + 1) * sizeof(float) + sizeof(uint);
+    /// Bytes of a pixel's radiance, of the picture or of one group: both halves and the mean.
     static constexpr std::size_t kRadianceBytes = 3 * (2 + 1) * sizeof(float);
     /// Floats of a pixel in one buffer, of `groups` of lights.
     static constexpr std::size_t state_floats(std::size_t groups) {
-        return 2 * (3 * (1 + groups) + 2);
+        return 2 * (3 * (1 + groups) + kLuminancePlanes);
     }
 
     AdaptiveSamples(const Gpu& gpu, const Tuning& tuning);
@@ -76,7 +78,7 @@ class AdaptiveSamples {
     uint groups_ = 0;
     uint taken_[2] = {0, 0};
     GrowingArray<uint> fixed_;   // [2][tiles]
-    GrowingArray<float> state_;  // [2][planes + 2][height][stride]
+    GrowingArray<float> state_;  // [2][planes + kLuminancePlanes][height][stride]
     GrowingArray<float> mean_, variance_;
 };
 

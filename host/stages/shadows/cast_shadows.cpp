@@ -6,8 +6,9 @@
 namespace kilolux {
 namespace {
 
-// Work-groups that share a tile's lights: the tiles with the most triangles decide when the last
-// group ends. Sampled shadows have fewer rays, and a group has to find them.
+// Work-groups for each tile; they share its lights. The tiles with the most triangles end last, and
+// more groups shorten them. Four are faster for sampled shadows: each group searches the tile's
+// lights for its few rays.
 int split_of(const KernelFeatures& features) { return features.sampled_shadows ? 4 : 8; }
 constexpr std::size_t kFirstWords = std::size_t{1} << 18;  // that there is room for from the start
 
@@ -27,7 +28,9 @@ KernelProgram cast_program(const Gpu& gpu, const Tuning& tuning, const KernelFea
     options.define("PICKED_ONLY", features.sampled_shadows).define("COUNT_SHADOWS", counts);
     if (tuning.shadow_group == 0) return build_program(gpu, "cast_shadows_by_bundle", options);
     if (tuning.shadow_group == 1) return build_program(gpu, "cast_shadows_by_item", options);
-    options.define("GROUP", tuning.shadow_group).define("SPLIT", split_of(features));
+    options.define("GROUP", tuning.shadow_group)
+        .define("SPLIT", split_of(features))
+        .define("ORDER_GROUP", tuning.prefix_group);
     return build_program(gpu.with_lanes(1), "cast_shadows_by_group", options);
 }
 
@@ -43,7 +46,9 @@ CastShadows::CastShadows(const Gpu& gpu, const Tuning& tuning, const KernelFeatu
       reserve_(gpu, program_, kCastShadowsStage, "cast_shadows_reserve"),
       cast_(gpu, program_, kCastShadowsStage, "cast_shadows"),
       words_(gpu, tuning, kCastShadowsStage, "words of shadow bits", sizeof(uint)),
-      counts_(gpu, kCastShadowsStage) {
+      counts_(gpu, kCastShadowsStage),
+      tiles_(gpu, kCastShadowsStage) {
+    if (split_ > 1) order_.emplace(gpu, program_, kCastShadowsStage, "cast_shadows_order");
     words_.reserve(kFirstWords);
 }
 
@@ -76,7 +81,11 @@ void CastShadows::enqueue(const ShadowInput& input, const LitPixels& lit, const 
         counts = counts_.reserve(items);
         gpu_.queue.enqueueFillBuffer(counts.buffer(), cl_uint{0}, 0, items * sizeof(ShadowCounts));
     }
-    cast_.enqueue(size, timer, lit, input, words, samples, counts);
+    if (!order_) return cast_.enqueue(size, timer, lit, input, words, samples, counts);
+    const uint tile_count = lit.clusters.tile_count;
+    const DeviceArray<uint> tiles = tiles_.reserve(tile_count);
+    order_->enqueue(groups(1, tuning_.prefix_group), timer, tile_count, words.offsets, tiles);
+    cast_.enqueue(size, timer, lit, input, words, samples, counts, tiles);
 }
 
 ShadowCounts CastShadows::counts() const {

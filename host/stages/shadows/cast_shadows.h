@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
 #include "host/gpu/stage_info.h"
@@ -50,6 +52,9 @@ class CastShadows {
     Kernel reserve_, cast_;
     CountedList words_;
     GrowingArray<ShadowCounts> counts_;  // of work-items or groups
+    // Of work-groups:
+    std::optional<Kernel> order_;
+    GrowingArray<uint> tiles_;  // in the order that they are cast
 };
 
 }  // namespace kilolux

@@ -143,7 +143,7 @@ ScoreReference read_reference(const ScoreOptions& options, const RgbImage& pictu
     return {std::move(radiance), std::nullopt, file.string()};
 }
 
-// Of a black reference no share is lost.
+// A share of no light is not defined.
 void require_light(const ScoreReference& reference) {
     const std::vector<double>& values = reference.radiance.rgb;
     if (std::ranges::any_of(values, [](double value) { return value > 0.0; })) return;

@@ -10,7 +10,7 @@ namespace kilolux {
 
 struct ScoreOptions {
     ScoreOptions() { shared.scene.clear(); }
-    SharedOptions shared;           // no scene: `reference`
+    SharedOptions shared;           // no scene where `reference` is given
     std::filesystem::path picture;  // linear, of any renderer
     std::filesystem::path reference;
     bool inverse_square = false;  // lights have no ranges

@@ -30,6 +30,9 @@ constexpr const char* kLicense = "LICENSE.txt";
 
 // Half of the last bit of float32, in which a picture's file holds its values.
 constexpr double kFileRounding = 0x1p-24;
+// Of float64 sums of points and spots, as a share of their unshadowed irradiance: less than 5000 of
+// them reach a pixel, and each term and each addition rounds by 2^-53 a few times.
+constexpr double kPointRounding = 1e-12;
 
 std::string text_of(const char* name) { return embedded_text(std::string(kTexts) + name); }
 
@@ -39,7 +42,7 @@ void write_text_of(const fs::path& folder, const char* name) {
 
 std::string numbers(const glm::dvec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
 
-// A line a light, in the units of the file's: see its first line.
+// One line for each light; the first line names columns and units.
 std::string light_table(const std::vector<SceneLight>& lights) {
     std::string out =
         "type,x_m,y_m,z_m,direction_x,direction_y,direction_z,side_x,side_y,side_z,"
@@ -63,7 +66,7 @@ std::string light_table(const std::vector<SceneLight>& lights) {
 
 // The row's generated lights with nothing automatic.
 LightOptions explicit_lights(const BenchmarkScene& row, const Scene& scene) {
-    LightOptions out = row.generated;
+    LightOptions out = row.generated_lights;
     if (out.count == 0) return out;
     const LightScale scale = automatic_light_scale(out, scene);
     out.radius = scale.radius;
@@ -154,7 +157,7 @@ class RowWriter {
         Json out = camera_json(scene.cameras[view]);
         out["width"] = row_.width;
         out["height"] = row_.height;
-        for (const BenchmarkReference& model : benchmark_references().first(row_.references)) {
+        for (const BenchmarkReference& model : benchmark_references().first(row_.reference_count)) {
             out["references"].push_back(write_reference(scene, view, model));
             advance_();
             check_interrupt();
@@ -176,7 +179,7 @@ class RowWriter {
         const std::string file = fmt::format("{}_{}_{}.exr", name_, view, model.name);
         write_image(folder_ / file, frame_of(made.picture.radiance));
         const bool has_sizes = has_area_lights(scene.lights, settings.lights);
-        const double of_lights = has_sizes ? ReferenceOptions().area_tolerance : 1e-13;
+        const double of_lights = has_sizes ? ReferenceOptions().area_tolerance : kPointRounding;
         return {{"file", file},
                 {"falloff", model.inverse_square ? "inverse square" : "range"},
                 {"shadows", model.shadows},
@@ -204,7 +207,8 @@ class RowWriter {
 
 std::size_t reference_count(std::span<const BenchmarkScene> scenes) {
     std::size_t count = 0;
-    for (const BenchmarkScene& row : scenes) count += row.make().cameras.size() * row.references;
+    for (const BenchmarkScene& row : scenes)
+        count += row.make().cameras.size() * row.reference_count;
     return count;
 }
 

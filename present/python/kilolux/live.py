@@ -26,7 +26,7 @@ class View:
 
     def close(self) -> None:
         """Ends the session; its page says so."""
-        self._session = None
+        self._session.close()
 
     def __repr__(self) -> str:
         return f"<View {self.address}>"

@@ -119,6 +119,8 @@ double ViewSession::wait_seconds() {
 }
 
 void ViewSession::begin_frame() {
+    frames_.screen().set_changing(state_.lights_move || lights_.are_awaited() ||
+                                  pictures_.are_busy() || pictures_.queue().is_moving());
     frames_.begin(wait_seconds(), [this] {
         if (script_) script_->advance();
     });
@@ -170,7 +172,7 @@ void ViewSession::obey_input() {
 }
 
 void ViewSession::request_picture() {
-    if (is_resting()) return;
+    if (is_resting() || is_ahead()) return;
     lights_.own().set_point_size(state_.settings.lights.size);
     if (!lights_.are_changing()) {
         const auto settings = [this] { return pictures_.wanted().settings; };
@@ -196,6 +198,13 @@ void ViewSession::fail(const std::string& what) {
 // Minimised, and no script or --exit-after waits for pictures.
 bool ViewSession::is_resting() const {
     return frames_.screen().is_minimised() && !script_ && options_.exit_after == 0;
+}
+
+// Only lights move, and the screen shows fewer pictures than are made: those that it leaves out
+// would take the cores' time. A camera's picture never waits.
+bool ViewSession::is_ahead() const {
+    return state_.lights_move && !steering_.is_moving(state_.camera_mode) && !script_ &&
+           options_.exit_after == 0 && frames_.screen().is_behind();
 }
 
 bool ViewSession::is_busy() const {

@@ -62,6 +62,7 @@ class ViewSession {
     double wait_seconds();
     void remember_size();
     bool is_resting() const;
+    bool is_ahead() const;
     bool is_busy() const;
     PictureState picture_state() const;
     void take_picture(const PictureRequest& request, const Picture& picture, double scale);

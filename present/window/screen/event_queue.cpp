@@ -30,19 +30,19 @@ bool asks_for_something(const InputEvent& event) {
 std::vector<InputEvent> EventQueue::take(double busy_seconds) {
     if (busy_seconds > kStaleSeconds) std::erase_if(waiting_, asks_for_something);
     press_frames_ = std::max(press_frames_ - 1, 0);
-    bool moves = false, clicks = false;  // this frame
+    bool has_move = false, has_button = false;  // this frame
     const auto waits = [&](const InputEvent& event) {
         if (is_typed(event)) return press_frames_ > 0;
         return std::holds_alternative<ButtonEvent>(event)
-                   ? moves
-                   : clicks && std::holds_alternative<MoveEvent>(event);
+                   ? has_move
+                   : has_button && std::holds_alternative<MoveEvent>(event);
     };
     std::vector<InputEvent> out;
     while (!waiting_.empty() && !waits(waiting_.front())) {
         const InputEvent event = waiting_.front();
         waiting_.pop_front();
-        clicks |= std::holds_alternative<ButtonEvent>(event);
-        moves |= std::holds_alternative<MoveEvent>(event);
+        has_button |= std::holds_alternative<ButtonEvent>(event);
+        has_move |= std::holds_alternative<MoveEvent>(event);
         if (is_press(event)) press_frames_ = kPressFrames;
         out.push_back(event);
     }

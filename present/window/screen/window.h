@@ -38,6 +38,8 @@ class Window : public Screen {
     std::array<int, 2> framebuffer() const override;
     unsigned framebuffer_name() override { return 0; }
     void swap() override;
+    void set_changing(bool) override {}
+    bool is_behind() const override { return false; }
     float content_scale() const override;
     bool is_minimised() const override;
     void resize(std::array<int, 2> size) override;

@@ -3,6 +3,7 @@
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
+#include <netdb.h>
 #include <sys/random.h>
 #include <unistd.h>
 
@@ -32,15 +33,31 @@ std::string machine_name() {
     return lower(name.data());
 }
 
+// The machine's name with its domain, as the system knows it; empty: it knows none.
+std::string domain_name(const std::string& machine) {
+    addrinfo wanted{};
+    wanted.ai_flags = AI_CANONNAME;
+    addrinfo* found = nullptr;
+    if (getaddrinfo(machine.c_str(), nullptr, &wanted, &found) != 0) return "";
+    const std::string out = found->ai_canonname != nullptr ? lower(found->ai_canonname) : "";
+    freeaddrinfo(found);
+    return out;
+}
+
+std::string in_brackets(const std::string& host) {
+    return is_address(AF_INET6, host) ? "[" + host + "]" : host;
+}
+
 }  // namespace
 
 ServeAddress parse_serve_address(const std::string& name, const std::string& text) {
     ServeAddress out;
     if (text.empty() || text == "local") return out;
     const auto fail = [&] {
-        return UsageError(name + ": '" + text +
-                          "' is not ADDRESS:PORT, as 127.0.0.1:8080 or [::1]:8080; a scene's name "
-                          "stands before it");
+        return UsageError(
+            name + ": '" + text +
+            "' is not ADDRESS:PORT, as 127.0.0.1:8080 or [::1]:8080, nor 'local'; SCENE "
+            "stands before --serve");
     };
     const bool brackets = text.starts_with('[');
     const std::size_t end = brackets ? text.find(']') : text.rfind(':');
@@ -56,8 +73,7 @@ ServeAddress parse_serve_address(const std::string& name, const std::string& tex
 }
 
 std::string text_of(const ServeAddress& address) {
-    const bool is_ipv6 = is_address(AF_INET6, address.host);
-    return fmt::format("{}:{}", is_ipv6 ? "[" + address.host + "]" : address.host, address.port);
+    return fmt::format("{}:{}", in_brackets(address.host), address.port);
 }
 
 bool is_loopback(const ServeAddress& address) {
@@ -66,7 +82,7 @@ bool is_loopback(const ServeAddress& address) {
 
 std::string host_in_url(const ServeAddress& address) {
     if (address.host == "0.0.0.0" || address.host == "::") return machine_name();
-    return is_address(AF_INET6, address.host) ? "[" + address.host + "]" : address.host;
+    return in_brackets(address.host);
 }
 
 std::string make_secret() {
@@ -94,7 +110,9 @@ bool is_allowed_host(std::string_view host) {
     const std::string name = name_of_host(host);
     if (name == "localhost" || is_address(AF_INET, name) || is_address(AF_INET6, name)) return true;
     const std::string own = machine_name();
-    return !own.empty() && (name == own || name.starts_with(own + "."));
+    if (own.empty()) return false;
+    static const std::string whole = domain_name(own);
+    return name == own || name == own + ".local" || name == whole;
 }
 
 bool is_same_origin(std::string_view origin, std::string_view host) {

@@ -24,8 +24,7 @@ std::string text_of(const ServeAddress& address);
 /// Whether only this machine's programs reach it.
 bool is_loopback(const ServeAddress& address);
 
-/// The host as browsers write it: an IPv6 address in brackets; of all addresses of the machine,
-/// the machine's name.
+/// The host for a URL: an IPv6 address in brackets; the machine's name for 0.0.0.0 and [::].
 std::string host_in_url(const ServeAddress& address);
 
 /// 64 hexadecimal digits from the system's random numbers. Throws Error.
@@ -35,8 +34,8 @@ std::string make_secret();
 bool same_secret(std::string_view a, std::string_view b);
 
 /// Whether a request may name this host ("localhost:8080"): an address, localhost or the machine's
-/// own name. A page of another site whose name was made to resolve to this machine (DNS rebinding)
-/// sends that site's name.
+/// own name, alone, with its domain or ".local". A page of another site whose name was made to
+/// resolve to this machine (DNS rebinding) sends that site's name.
 bool is_allowed_host(std::string_view host);
 
 /// Whether a request's Origin is the page that this server sent under that Host.

@@ -41,10 +41,11 @@ void check_is_own(const ServeAddress& address) {
     const bool is_six = inet_pton(AF_INET6, address.host.c_str(), &six.sin6_addr) == 1;
     if (!is_six) inet_pton(AF_INET, address.host.c_str(), &four.sin_addr);
     const int probe = socket(is_six ? AF_INET6 : AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    if (probe < 0) throw cannot_listen(address, std::strerror(errno));
     const int failed = is_six ? bind(probe, reinterpret_cast<const sockaddr*>(&six), sizeof six)
                               : bind(probe, reinterpret_cast<const sockaddr*>(&four), sizeof four);
     const int reason = errno;
-    if (probe >= 0) close(probe);
+    close(probe);
     if (failed != 0) throw cannot_listen(address, std::strerror(reason));
 }
 

@@ -14,11 +14,11 @@ namespace {
 
 using PageJson = nlohmann::json;
 
-constexpr int kMostPixels = 8192;      // of an edge
+constexpr int kMostPixels = 8192;      // of an edge; page.html keeps this and the scale's limits
 constexpr double kFarthestMove = 1e5;  // from the page's corner [pixel]
 constexpr double kMostClicks = 100.0;
 constexpr std::size_t kLongestText = 512;  // characters
-constexpr std::size_t kLongestTab = 64;    // characters
+constexpr std::size_t kLongestName = 64;   // characters, of a tab or a key
 constexpr int kModifiers = GLFW_MOD_SHIFT | GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER;
 
 // What a message lacks of its form.
@@ -66,7 +66,8 @@ class PageValues {
 
 PageMessage hello_message(const PageValues& values) {
     values.expect(5);
-    return HelloMessage{values.text(1, kLongestTab), values.text(2, kLongestTab), values.size(3)};
+    return HelloMessage{values.text(1, kLongestPageMessage), values.text(2, kLongestName),
+                        values.size(3)};
 }
 
 PageMessage size_message(const PageValues& values) {
@@ -91,7 +92,7 @@ PageMessage alive_message(const PageValues& values) {
 
 PageMessage key_message(const PageValues& values) {
     values.expect(3);
-    const std::optional<int> key = key_of_code(values.text(1, kLongestTab));
+    const std::optional<int> key = key_of_code(values.text(1, kLongestName));
     const KeyEvent event{key.value_or(GLFW_KEY_UNKNOWN), 0,
                          values.whole(2, GLFW_RELEASE, GLFW_REPEAT),
                          values.whole(3, 0, kModifiers)};

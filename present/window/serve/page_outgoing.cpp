@@ -4,6 +4,7 @@
 #include <libwebsockets.h>
 
 #include <cstring>
+#include <nlohmann/json.hpp>
 
 namespace kilolux {
 namespace {
@@ -37,6 +38,10 @@ std::shared_ptr<PageBytes> page_bytes(const PageImage& image) {
     return out;
 }
 
+std::string page_text(const nlohmann::json& message) {
+    return message.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 int send_image(lws* wsi, PageBytes& image, float transport_ms) {
     copy_to(image.bytes, kTransportAt, &transport_ms, sizeof transport_ms);
     return write_message(wsi, image.bytes.data() + LWS_PRE, image.bytes.size() - LWS_PRE,
@@ -50,7 +55,7 @@ int send_text(lws* wsi, const std::string& json) {
 }
 
 int send_farewell(lws* wsi, const Farewell& farewell) {
-    std::string reason = farewell.reason;
+    std::string reason(farewell.reason);
     lws_close_reason(wsi, static_cast<lws_close_status>(farewell.status),
                      reinterpret_cast<unsigned char*>(reason.data()), reason.size());
     return -1;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct PageBytes {
 /// Unix milliseconds (8), how long the page's last one took to be shown in milliseconds (4), the
 /// file. Numbers are little-endian.
 std::shared_ptr<PageBytes> page_bytes(const PageImage& image);
+
+/// The text of a message of JSON; bytes that are no UTF-8 are replaced.
+std::string page_text(const nlohmann::json& message);
 
 /// `transport_ms`: of the page's last picture.
 int send_image(lws* wsi, PageBytes& image, float transport_ms);

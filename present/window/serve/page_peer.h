@@ -6,21 +6,29 @@
 #include <cstdint>
 #include <deque>
 #include <string>
+#include <string_view>
 
 struct lws;
 
 namespace kilolux {
 
-/// Why a page is disconnected: a status of WebSocket's private range, which page.html knows.
+/// Why a page is disconnected for good: a status from 4000 on, of WebSocket's private range, and
+/// what page.html shows, at most 123 bytes (RFC 6455, section 5.5).
 struct Farewell {
     int status = 0;  // 0: it stays
-    const char* reason = "";
+    std::string_view reason;
 };
-inline constexpr Farewell kSessionOver{4000, "the session has ended"};
-inline constexpr Farewell kNoRoom{4001, "another page drives this session"};
-inline constexpr Farewell kWrongSecret{4002, "the address lacks the right secret"};
-inline constexpr Farewell kNotUnderstood{4003, "a message was not understood"};
-inline constexpr Farewell kTooMuch{4003, "too many messages"};
+inline constexpr std::size_t kLongestReason = 123;
+inline constexpr int kSessionOver = 4000;
+inline constexpr Farewell kNoRoom{
+    4001, "Another page drives this session. kilolux view --viewers N lets N others watch."};
+inline constexpr Farewell kWrongSecret{
+    4002,
+    "The address lacks the right secret: open it as it was printed, with all that follows #."};
+inline constexpr Farewell kNotUnderstood{4003,
+                                         "The server did not understand this page. Load it again."};
+inline constexpr Farewell kTooMuch{4004, "This page sent too many messages. Load it again."};
+inline constexpr Farewell kReplaced{4005, "Another page with this one's name has taken its place."};
 
 /// A connected page, as the server's thread sees it.
 struct PagePeer {
@@ -41,7 +49,7 @@ struct PagePeer {
         return allowance < 0.0;
     }
     double seconds_under_way() const {
-        return under_way ? std::chrono::duration<double>(Clock::now() - sent).count() : 0.0;
+        return under_way ? std::chrono::duration<double>(Clock::now() - sent_at).count() : 0.0;
     }
 
     lws* wsi;
@@ -52,11 +60,11 @@ struct PagePeer {
     std::deque<std::string> texts;  // to be sent
     std::uint32_t picture = 0;      // number of the last that was sent
     bool under_way = false;         // it is not acknowledged yet
-    Clock::time_point sent;
+    Clock::time_point sent_at;
     float transport_ms = 0.0f;  // of the last picture: until it was shown
     double allowance = kBurst;
     Clock::time_point counted = Clock::now();
-    Clock::time_point came = Clock::now();
+    Clock::time_point came_at = Clock::now();
 };
 
 }  // namespace kilolux

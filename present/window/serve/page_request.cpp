@@ -46,7 +46,7 @@ int answer_request(lws* wsi, std::string_view path, std::string_view page) {
         return refuse(HTTP_STATUS_FORBIDDEN, "Name this machine by its address or its own name.");
     }
     if (lws_hdr_total_length(wsi, WSI_TOKEN_GET_URI) == 0) {
-        return refuse(HTTP_STATUS_METHOD_NOT_ALLOWED, "The page is got.");
+        return refuse(HTTP_STATUS_METHOD_NOT_ALLOWED, "Only GET is answered.");
     }
     if (path != "/") return refuse(HTTP_STATUS_NOT_FOUND, "There is one page.");
     std::array<unsigned char, LWS_PRE + 2048> head{};

@@ -24,9 +24,10 @@ namespace kilolux {
 namespace {
 
 constexpr std::size_t kMostTexts = 64;  // that wait for a page
-constexpr int kStrangers = 8;           // connections that have not named the secret yet
+constexpr int kMostStrangers = 8;       // connections that have not named the secret yet
 constexpr lws_usec_t kLookMicroseconds = 1'000'000;  // how often a connection is looked at
 constexpr std::chrono::milliseconds kGoodbye(200);
+constexpr const char* kUsualEnd = "The session has ended.";
 constexpr std::size_t kWriteBytes = std::size_t{1} << 20;  // at most, that one call writes
 
 }  // namespace
@@ -41,7 +42,7 @@ class PageServer::Loop {
     bool is_waiting() const { return waiting_count_ > 0; }
     void show(const PageImage& image);
     void tell_driver(const std::string& json);
-    void end();
+    void end(const std::string& reason);
 
  private:
     using Peers = std::list<PagePeer>;
@@ -88,7 +89,7 @@ class PageServer::Loop {
     std::mutex mutex_;                   // of these:
     std::shared_ptr<PageBytes> newest_;  // from the session
     std::deque<std::string> driver_texts_;
-    bool ending_ = false;
+    std::string end_reason_;  // empty: pages stay
 
     std::atomic<bool> stopping_ = false;
     std::thread thread_;
@@ -109,7 +110,7 @@ PageServer::Loop::Loop(const ServerOptions& options, const std::string& title,
 }
 
 PageServer::Loop::~Loop() {
-    end();
+    end(kUsualEnd);
     const auto latest = std::chrono::steady_clock::now() + kGoodbye;
     while (page_count_ > 0 && std::chrono::steady_clock::now() < latest) {
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -191,7 +192,7 @@ int PageServer::Loop::on_page(lws* wsi, lws_callback_reasons reason, void* user,
 bool PageServer::Loop::may_connect(lws* wsi) const {
     const auto strangers =
         std::ranges::count_if(peers_, [](const PagePeer& peer) { return !peer.admitted; });
-    return comes_from_page(wsi) && strangers < kStrangers;
+    return comes_from_page(wsi) && strangers < kMostStrangers;
 }
 
 PageServer::Loop::Peers::iterator PageServer::Loop::peer_of(lws* wsi) {
@@ -217,7 +218,7 @@ void PageServer::Loop::leave(lws* wsi) {
 
 // Disconnects a page that does not say who it is, or does not take its picture.
 int PageServer::Loop::look_at(PagePeer& peer) {
-    const std::chrono::duration<double> age = PagePeer::Clock::now() - peer.came;
+    const std::chrono::duration<double> age = PagePeer::Clock::now() - peer.came_at;
     if (!peer.admitted && age.count() > PagePeer::kHelloSeconds) return -1;
     if (peer.seconds_under_way() > kPatienceSeconds) return -1;
     lws_set_timer_usecs(peer.wsi, kLookMicroseconds);
@@ -270,8 +271,8 @@ void PageServer::Loop::admit(PagePeer& peer, const HelloMessage& hello) {
     const auto self = peer_of(peer.wsi);
     if (old != peers_.end()) {
         peers_.splice(old, peers_, self);
-        old->admitted = false;
-        lws_set_timeout(old->wsi, PENDING_TIMEOUT_USER_OK, LWS_TO_KILL_ASYNC);
+        old->admitted = false;  // look_at() cuts it if it takes no goodbye
+        dismiss(*old, kReplaced);
     } else if (static_cast<std::size_t>(page_count_) > viewers_) {
         return dismiss(peer, kNoRoom);
     }
@@ -279,7 +280,7 @@ void PageServer::Loop::admit(PagePeer& peer, const HelloMessage& hello) {
     peer.tab = hello.tab;
     count();
     const bool drives = driver() == &peer;
-    tell(peer, nlohmann::json{{"role", drives ? "driver" : "watcher"}, {"title", title_}}.dump());
+    tell(peer, page_text({{"role", drives ? "driver" : "watcher"}, {"title", title_}}));
     if (drives) {
         listener_.message(SizeMessage{hello.size});
         listener_.driver(true);
@@ -306,7 +307,7 @@ int PageServer::Loop::send_next(PagePeer& peer) {
     if (!waits || !image_ || image_->number == peer.picture) return 0;
     peer.picture = image_->number;
     peer.under_way = true;
-    peer.sent = PagePeer::Clock::now();
+    peer.sent_at = PagePeer::Clock::now();
     count();
     return send_image(peer.wsi, *image_, peer.transport_ms);
 }
@@ -345,10 +346,10 @@ void PageServer::Loop::tell_driver(const std::string& json) {
     lws_cancel_service(context_);
 }
 
-void PageServer::Loop::end() {
+void PageServer::Loop::end(const std::string& reason) {
     {
         const std::lock_guard lock(mutex_);
-        ending_ = true;
+        if (end_reason_.empty()) end_reason_ = reason.substr(0, kLongestReason);
     }
     lws_cancel_service(context_);
 }
@@ -361,13 +362,13 @@ void PageServer::Loop::obey_session() {
         const std::lock_guard lock(mutex_);
         if (newest_) image_ = std::move(newest_);
         texts.swap(driver_texts_);
-        ending = ending_;
+        ending = !end_reason_.empty();  // it stays as it is
     }
     if (PagePeer* page = driver()) {
         for (std::string& text : texts) tell(*page, std::move(text));
     }
     for (PagePeer& peer : peers_) {
-        if (ending) dismiss(peer, kSessionOver);
+        if (ending) dismiss(peer, {kSessionOver, end_reason_});
         lws_callback_on_writable(peer.wsi);
     }
 }
@@ -381,6 +382,6 @@ int PageServer::page_count() const { return loop_->page_count(); }
 bool PageServer::is_waiting() const { return loop_->is_waiting(); }
 void PageServer::show(const PageImage& image) { loop_->show(image); }
 void PageServer::tell_driver(const std::string& json) { loop_->tell_driver(json); }
-void PageServer::end() { loop_->end(); }
+void PageServer::end(const std::string& reason) { loop_->end(reason.empty() ? kUsualEnd : reason); }
 
 }  // namespace kilolux

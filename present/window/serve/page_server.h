@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <span>
@@ -16,9 +15,9 @@ namespace kilolux {
 struct ServerOptions {
     ServeAddress address;
     int viewers = 0;  // pages beside the one that drives
-    // Of TLS, PEM; empty: http.
-    std::filesystem::path certificate;
-    std::filesystem::path key;
+    // Files of TLS, PEM; empty: http.
+    std::string certificate;
+    std::string key;
     bool operator==(const ServerOptions&) const = default;
 };
 
@@ -68,8 +67,8 @@ class PageServer {
     void show(const PageImage& image);
     /// Sends a JSON object to the page that drives.
     void tell_driver(const std::string& json);
-    /// Tells pages that the session is over and disconnects them.
-    void end();
+    /// Tells pages that the session is over, and why, and disconnects them.
+    void end(const std::string& reason = "");
 
  private:
     class Loop;

@@ -7,8 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "host/base/log.h"
 #include "present/image/image_file.h"
 #include "present/window/screen/read_screen.h"
+#include "present/window/serve/page_outgoing.h"
 
 namespace kilolux {
 namespace {
@@ -23,11 +25,6 @@ double unix_ms() {
 
 // CSS names by Cursor.
 constexpr const char* kCssCursors[] = {"default", "text", "ns-resize", "ew-resize", "pointer"};
-
-std::string page_word(const char* name, const nlohmann::json& value) {
-    const nlohmann::json word{{name, value}};
-    return word.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
 
 }  // namespace
 
@@ -44,6 +41,11 @@ ServedScreen::ServedScreen(const ServerOptions& options, const std::string& titl
         changed_.notify_one();
     };
     server_ = std::make_unique<PageServer>(options, title, std::move(listener));
+    if (is_loopback(options.address)) return;
+    warn(std::string("--serve: other machines can connect") +
+         (options.certificate.empty()
+              ? ", and nothing is encrypted; --tls-certificate and --tls-key do that"
+              : ""));
 }
 
 ServedScreen::~ServedScreen() {
@@ -79,15 +81,15 @@ void ServedScreen::wake() {
 }
 
 void ServedScreen::wait_events(double seconds) {
-    const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                        std::chrono::duration<double>(seconds));
+    auto end = Clock::now() +
+               std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
     bool done = false;
     while (!done) {
-        send_picture();
+        if (send_picture()) end = Clock::now();  // for the next one
         std::unique_lock lock(mutex_);
         const auto rest =
             drawn_at_ + std::chrono::milliseconds(static_cast<int>(1e3 * kRestSeconds) + 1);
-        const bool rests_later = drawn_ && !lossless_ && rest > Clock::now();
+        const bool rests_later = drawn_ && !lossless_ && !changing_ && rest > Clock::now();
         changed_.wait_until(lock, rests_later ? std::min(end, rest) : end,
                             [this] { return woken_ || ready_ || !notes_.empty(); });
         const std::deque<Note> notes = std::exchange(notes_, {});
@@ -147,15 +149,18 @@ void ServedScreen::swap() {
 
 bool ServedScreen::is_rest_due() const {
     const std::chrono::duration<double> rest = Clock::now() - drawn_at_;
-    return !lossless_ && rest.count() >= kRestSeconds;
+    return !lossless_ && !changing_ && rest.count() >= kRestSeconds;
 }
 
-// Has what was drawn last coded, once a page takes it and the picture before is coded.
-void ServedScreen::send_picture() {
-    if (is_coding_ || !drawn_ || !server_->is_waiting()) return;
+// Has what was drawn last coded, once a page takes it and the picture before is coded. Returns
+// whether the screen was behind and is no longer.
+bool ServedScreen::send_picture() {
+    if (is_coding_ || !drawn_ || !server_->is_waiting()) return false;
     if (coding_.valid()) coding_.get();  // throws the coder's error
+    const bool was_fresh = fresh_;
     const bool rests = is_rest_due();
     if (fresh_ || rests) code(rests);
+    return was_fresh;
 }
 
 // Called in the coder's thread.
@@ -190,17 +195,19 @@ void ServedScreen::code(bool lossless) {
     });
 }
 
-void ServedScreen::set_full_screen(bool on) { server_->tell_driver(page_word("full-screen", on)); }
+void ServedScreen::set_full_screen(bool on) {
+    server_->tell_driver(page_text({{"full-screen", on}}));
+}
 
 void ServedScreen::set_cursor(Cursor cursor) {
     if (cursor == cursor_) return;
     cursor_ = cursor;
-    server_->tell_driver(page_word("cursor", kCssCursors[static_cast<std::size_t>(cursor)]));
+    server_->tell_driver(page_text({{"cursor", kCssCursors[static_cast<std::size_t>(cursor)]}}));
 }
 
 void ServedScreen::set_clipboard(const std::string& text) {
     clipboard_ = text;
-    server_->tell_driver(page_word("clipboard", text));
+    server_->tell_driver(page_text({{"clipboard", text}}));
 }
 
 }  // namespace kilolux

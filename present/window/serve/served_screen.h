@@ -21,7 +21,7 @@ namespace kilolux {
 /// its input comes back as events. Without a page it counts as minimised.
 class ServedScreen : public Screen {
  public:
-    /// Without another picture for so long the last one is sent without loss [s].
+    /// A picture that none follows for so long, while none is under way, is sent without loss [s].
     static constexpr double kRestSeconds = 0.25;
 
     /// Throws Error where there is no headless OpenGL 4.5, or the server cannot listen.
@@ -40,10 +40,14 @@ class ServedScreen : public Screen {
     bool should_close() const override { return closed_; }
     void close() override { closed_ = true; }
     void hide() override { server_->end(); }
+    /// hide(), and pages show why.
+    void end(const std::string& reason) { server_->end(reason); }
     std::array<int, 2> size() const override { return size_; }
     std::array<int, 2> framebuffer() const override { return size_; }
     unsigned framebuffer_name() override;
     void swap() override;
+    void set_changing(bool changing) override { changing_ = changing; }
+    bool is_behind() const override { return fresh_ && !is_minimised(); }
     float content_scale() const override { return scale_; }
     bool is_minimised() const override { return server_->page_count() == 0; }
     /// The page's next size replaces it.
@@ -69,7 +73,7 @@ class ServedScreen : public Screen {
     void note(Note note);
     void take(const PageMessage& message);
     void take(DriverChange change);
-    void send_picture();
+    bool send_picture();
     bool is_rest_due() const;
     void code(bool lossless);
     void show(const Frame& frame, PageImage image);
@@ -88,6 +92,7 @@ class ServedScreen : public Screen {
     Cursor cursor_ = Cursor::arrow;
     std::string clipboard_;
 
+    bool changing_ = false;  // see set_changing()
     bool drawn_ = false;     // at this size
     bool fresh_ = false;     // drawn and not sent
     bool lossless_ = false;  // what was drawn last was sent as PNG

@@ -96,7 +96,7 @@ TEST(PrepareLights, ViewSpaceAndExtentsAgreeWithDouble) {
         const View view = make_view(shape);
         const ClusterGrid grid =
             make_cluster_grid({16, 9, 4, 0.5f, 50.0f, 0.0f}, view.width, view.height);
-        RandomLights mix;
+        RandomLightOptions mix;
         mix.count = 3001;
         mix.spots = 0.3;
         mix.range_min = 1e-4;
@@ -138,7 +138,7 @@ TEST(PrepareLights, ExtentsAreWiderBySharesOfEveryCoordinate) {
 TEST(PrepareLights, AnyCountLaneWidthAndGroupGivesTheSame) {
     const View view = make_view(ViewShape{});
     const ClusterGrid grid = make_cluster_grid({}, view.width, view.height);
-    RandomLights mix;
+    RandomLightOptions mix;
     mix.count = 257;
     const std::vector<Light> lights = random_lights(view, mix);
     for (const std::size_t count : {0u, 1u, 7u, 8u, 17u, 255u, 256u, 257u}) {
@@ -185,7 +185,7 @@ TEST(PrepareLights, SmallLightsTouchFewTiles) {
     const View view = make_view(shape);
     const ClusterGrid grid =
         make_cluster_grid({16, 9, 4, 0.5f, 50.0f, 0.0f}, view.width, view.height);
-    RandomLights mix;
+    RandomLightOptions mix;
     mix.count = 500;
     mix.range_min = mix.range_max = 1e-3;
     mix.z_near = 1;

@@ -43,7 +43,7 @@ Counted count_lights(int lanes, std::uint32_t light_count) {
     const View view = make_view(ViewShape{49, 35});
     Counted out;
     out.grid = make_cluster_grid({16, 9, 4, 0.5f, 50.0f, 0.0f}, view.width, view.height);
-    RandomLights mix;
+    RandomLightOptions mix;
     mix.count = light_count;
     out.lights = random_lights(view, mix);
     const GBuffer gbuffer =

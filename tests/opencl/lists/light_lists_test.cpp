@@ -33,7 +33,7 @@ struct Band {
         return view;
     }
     std::vector<Light> some_lights() const {
-        RandomLights mix;
+        RandomLightOptions mix;
         mix.count = 300;
         mix.range_max = 4;
         return random_lights(view, mix);

@@ -52,7 +52,7 @@ void expect_list(const ActiveCluster& box, std::span<const uint> found,
 void expect_refined(const Gpu& gpu, const Tuning& tuning, std::uint32_t light_count) {
     const View view = make_view(ViewShape{97, 65});
     const ClusterGrid grid = make_cluster_grid(kRefinedRequest, view.width, view.height);
-    RandomLights mix;
+    RandomLightOptions mix;
     mix.count = light_count;
     const std::vector<Light> lights = random_lights(view, mix);
     const GBuffer gbuffer =

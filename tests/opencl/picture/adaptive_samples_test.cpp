@@ -38,17 +38,22 @@ struct Feed {
     View view;
     AdaptiveSamples samples{gpu, default_tuning(gpu.info)};
     StageTimer timer{};
+    uint groups = 0;  // the g-th has g + 2 times the picture's light
 
     void add(uint half, const PixelLight& light) {
-        std::vector<float> planes(3 * size_of(view));
+        Radiance radiance{{}, view, groups};
+        std::vector<float> planes(radiance.floats());
         for (uint y = 0; y < view.height; ++y) {
             for (uint x = 0; x < view.width; ++x) {
                 const std::size_t i = std::size_t{y} * view.stride + x;
                 const float value = light(x, y);
-                for (std::size_t c = 0; c < 3; ++c) planes[c * size_of(view) + i] = value;
+                for (uint plane = 0; plane < radiance.plane_count(); ++plane) {
+                    planes[plane * size_of(view) + i] = value * static_cast<float>(1 + plane / 3);
+                }
             }
         }
-        samples.add(half, {new_buffer(gpu, planes), view}, timer);
+        radiance.planes = new_buffer(gpu, planes);
+        samples.add(half, radiance, timer);
     }
 
     // Rounds of four pictures of each half, until all tiles are done or there are `most`.
@@ -65,13 +70,15 @@ struct Feed {
     std::ptrdiff_t open() const { return std::ranges::count(samples.open_tiles(), true); }
 
     std::vector<float> mean() {
-        return download<float>(gpu, samples.mean(timer).planes, 3 * size_of(view));
+        const Radiance radiance = samples.mean(timer);
+        return download<float>(gpu, radiance.planes, radiance.floats());
     }
 };
 
 TEST(AdaptiveSamples, StillLightNeedsTheLeastAndKeepsItsBits) {
     for (const int lanes : lane_widths()) {
         Feed feed{test_gpu(lanes), view_with(53, 41)};
+        feed.groups = lanes == lane_widths().front() ? 0 : 2;
         const PixelLight light = [](uint x, uint y) {
             return 0.1f * static_cast<float>(x) / static_cast<float>(y + 1);
         };
@@ -84,8 +91,11 @@ TEST(AdaptiveSamples, StillLightNeedsTheLeastAndKeepsItsBits) {
         for (uint y = 0; y < 41; ++y) {
             for (uint x = 0; x < 53; ++x) {
                 const std::size_t i = std::size_t{y} * feed.view.stride + x;
-                ASSERT_EQ(mean[i], light(x, y));
-                ASSERT_EQ(mean[i + 2 * size_of(feed.view)], light(x, y));
+                for (uint group = 0; group <= feed.groups; ++group) {
+                    const float expected = light(x, y) * static_cast<float>(1 + group);
+                    ASSERT_EQ(mean[i + 3 * group * size_of(feed.view)], expected);
+                    ASSERT_EQ(mean[i + (3 * group + 2) * size_of(feed.view)], expected);
+                }
                 ASSERT_EQ(taken[i], 8u);
                 ASSERT_EQ(variance[i], 0.0f);
             }

@@ -83,7 +83,7 @@ FrameInput usual_input(int shading, std::uint32_t light_count) {
     in.features = full_features(shading);
     in.shape.width = 83;
     in.shape.height = 45;
-    RandomLights mix;
+    RandomLightOptions mix;
     mix.count = light_count;
     mix.spots = 0.4;
     in.lights = random_lights(make_view(in.shape), mix);

@@ -46,7 +46,7 @@ AreaFrame area_frame(int lanes, int group, const AreaCase& asked = {}) {
     shape.width = asked.width;
     shape.height = 17;
     const View view = make_view(shape);
-    RandomLights mix;
+    RandomLightOptions mix;
     mix.count = asked.lights;
     mix.range_min = 20;
     mix.range_max = 60;

@@ -40,7 +40,7 @@ CastFrame cast_frame(int lanes, int group, std::uint32_t light_count = 70, uint 
     shape.width = width;
     shape.height = 17;
     const View view = make_view(shape);
-    RandomLights mix;
+    RandomLightOptions mix;
     mix.count = light_count;
     mix.range_max = 30;
     mix.spots = 0.3;

@@ -71,7 +71,7 @@ void add_node(TreeLights& out, std::span<const Light> lights) {
 
 // Points in a line that leads away from the view.
 TreeLights lights_beside(const View& view) {
-    RandomLights mix;
+    RandomLightOptions mix;
     mix.count = 20;
     mix.range_max = 30;
     TreeLights out{random_lights(view, mix), {}};

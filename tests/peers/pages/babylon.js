@@ -75,8 +75,11 @@ export async function open(canvas, scene, settings) {
     await world.whenReadyAsync();
     const pixel = new Float32Array(4);
     const read = async () => target.readPixels(0, 0, null, true, false, 0, 0, scene.width, scene.height);
+    // The mask has a row of tiles for each batch of lights, one a bit of a float; a larger one is no texture, and the picture is black.
+    const {shaderFloatPrecision, maxTextureSize} = engine.getCaps();
+    const most = shaderFloatPrecision * Math.floor(maxTextureSize / container.verticalTiles);
     return {
-        facts: {api: 'WebGL 2', cap: `none known (${container.lights.length} lights)`, version: Engine.Version},
+        facts: {api: 'WebGL 2', cap: `${most} lights`, version: Engine.Version},
         move(places) {
             lights.forEach((light, i) => light.position.set(...places.subarray(3 * i, 3 * i + 3)));
         },

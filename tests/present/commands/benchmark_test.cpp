@@ -3,13 +3,18 @@
 // pixels and lights.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
 
 #include "host/base/text.h"
 #include "host/measure/reference/ray_cast_reference.h"
 #include "host/measure/report/picture_errors.h"
 #include "host/scene/gltf/load_scene.h"
+#include "host/scene/lights/light_kinds.h"
 #include "present/commands/benchmark/write_benchmark.h"
 #include "present/image/image_file.h"
 #include "present/image/read.h"
@@ -32,9 +37,10 @@ std::vector<BenchmarkScene> small_rows() {
     for (BenchmarkScene& row : out) {
         row.width = kViewWidth;
         row.height = kViewHeight;
-        row.generated.count = std::min<std::uint64_t>(row.generated.count, 2000);
+        auto& count = row.generated_lights.count;
+        count = std::min<std::uint64_t>(count, 2000);
     }
-    out.back().generated.radius = 6.0;
+    std::ranges::find_if(out, &BenchmarkScene::by_formula)->generated_lights.radius = 6.0;
     return out;
 }
 
@@ -219,7 +225,7 @@ TEST_F(Benchmark, ACapOfLightsIsSeen) {
 TEST_F(Benchmark, TheScriptComputesTheLightsOfTheMillion) {
     const std::vector<BenchmarkScene> rows = small_rows();
     const auto row = std::ranges::find_if(rows, &BenchmarkScene::by_formula);
-    const auto lights = generate_lights(row->generated, row->make(), 0.0);
+    const auto lights = generate_lights(row->generated_lights, row->make(), 0.0);
     const ChildResult result =
         run_child({"/usr/bin/python3", file("million_lights.py"), std::to_string(lights.size())});
     ASSERT_EQ(result.code, 0) << result.err;
@@ -236,20 +242,70 @@ TEST_F(Benchmark, TheScriptComputesTheLightsOfTheMillion) {
     }
 }
 
+// What a light's row must hold; a column that the kind lacks is empty.
+std::map<std::string, std::optional<double>> columns_of(const SceneLight& light) {
+    const LightKind& kind = kind_of(light);
+    const auto if_has = [](bool has, double value) {
+        return has ? std::optional(value) : std::nullopt;
+    };
+    std::map<std::string, std::optional<double>> out = {
+        {"red_cd", light.intensity.x},
+        {"green_cd", light.intensity.y},
+        {"blue_cd", light.intensity.z},
+        {"range_m", light.range},
+        {"inner_cone_rad", if_has(kind.has_cone, light.inner_cone)},
+        {"outer_cone_rad", if_has(kind.has_cone, light.outer_cone)},
+        {"width_m", if_has(kind.is_flat, light.width)},
+        {"height_m", if_has(kind.is_flat, light.height)}};
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::string name(1, "xyz"[axis]);
+        out[name + "_m"] = light.position[axis];
+        out["direction_" + name] = if_has(kind.is_aimed, light.direction[axis]);
+        out["side_" + name] = if_has(kind.is_aimed, light.side[axis]);
+    }
+    return out;
+}
+
 TEST_F(Benchmark, LightTablesHaveEveryLight) {
     for (const char* name : {"street", "panel_wall", "lantern_forest", "metal_hall"}) {
         const Scene scene = load_scene(file(std::string(name) + ".glb"));
         const std::string text = text_of_file(file(std::string(name) + "_lights.csv"));
         const auto lines = split(trim(text), '\n');
         ASSERT_EQ(lines.size(), scene.lights.size() + 1) << name;
+        const auto names = split(lines[0], ',');
         for (std::size_t i = 0; i < scene.lights.size(); i += 17) {
             const auto words = split(trim(lines[i + 1]), ',');
-            ASSERT_EQ(words.size(), split(lines[0], ',').size()) << name;
-            const SceneLight& light = scene.lights[i];
-            EXPECT_EQ(number_of<double>(words[1]), light.position.x);
-            EXPECT_NEAR(number_of<float>(words[10]).value(), light.intensity.x,
-                        1e-6f * light.intensity.x);
-            EXPECT_EQ(number_of<float>(words[13]), light.range);
+            const auto expected = columns_of(scene.lights[i]);
+            ASSERT_EQ(words.size(), names.size()) << name;
+            ASSERT_EQ(names.size(), expected.size() + 1) << "type, too";
+            EXPECT_EQ(words[0], kind_of(scene.lights[i]).name);
+            for (std::size_t column = 1; column < names.size(); ++column) {
+                const auto& value = expected.at(std::string(names[column]));
+                const auto seen = number_of<double>(words[column]);
+                ASSERT_EQ(seen.has_value(), value.has_value()) << name << ' ' << names[column];
+                // The file's intensities are the product of a colour and a number.
+                if (!value) continue;
+                EXPECT_NEAR(*seen, *value, 1e-6 * std::abs(*value)) << names[column];
+            }
+        }
+    }
+}
+
+// Scripts of other renderers take their cameras from views.json.
+TEST_F(Benchmark, ViewsHaveTheCamerasOfTheFile) {
+    for (const Json& row : scenes()) {
+        const Scene scene = load_scene(file(row.at("scene")));
+        ASSERT_EQ(row.at("views").size(), scene.cameras.size());
+        for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+            const Json& view = row.at("views")[i];
+            const glm::dmat4& world = scene.cameras[i].world_from_camera;
+            const char* const names[] = {"right", "up", "back", "position_m"};
+            for (int column = 0; column < 4; ++column) {
+                for (int axis = 0; axis < 3; ++axis) {
+                    EXPECT_EQ(view.at(names[column])[axis], world[column][axis]) << row.at("name");
+                }
+            }
+            EXPECT_EQ(view.at("vertical_angle_rad"), scene.cameras[i].y_fov);
         }
     }
 }

@@ -170,8 +170,8 @@ void walk_render() {
 void walk_view() {
     walk(add_view_options,
          [](const ViewOptions& o) {
-             const auto& [shared, exit_after, screenshot, script, fresh, serve, viewers,
-                          certificate, key] = o;
+             const auto& [shared, exit_after, screenshot, script, fresh, serve, server] = o;
+             const auto& [address, viewers, certificate, key] = server;
              return std::tie(shared, exit_after, screenshot, script, fresh, serve, viewers,
                              certificate, key);
          },

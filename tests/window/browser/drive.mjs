@@ -10,7 +10,7 @@ const [playwright, address, folder] = process.argv.slice(2);
 const { chromium } = createRequire(join(playwright, "package.json"))("playwright-core");
 const url = new URL(address);
 const kPatience = 120000;  // [ms], to compile kernels under load
-const seen = { sizes: {}, latencies: [] };
+const seen = { sizes: {} };
 
 // A connection of the page to the server that can be cut, as an ssh tunnel can.
 class Tunnel {
@@ -97,14 +97,13 @@ await rest();
 seen.title = await page.title();
 await keep("first");
 
-// The camera, by a drag; its pictures' ways to the page are timed.
+// The camera, by a drag.
 await act(async () => {
   await page.mouse.move(600, 300);
   await page.mouse.down();
   for (let i = 1; i <= 20; ++i) {
     await page.mouse.move(600 + 6 * i, 300 + 2 * i);
     await page.waitForTimeout(50);
-    seen.latencies.push(await page.evaluate(() => window.kiloluxState.latency));
   }
   await page.mouse.up();
   await page.mouse.move(1279, 719);

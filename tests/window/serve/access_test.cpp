@@ -2,6 +2,7 @@
 #include "present/window/serve/access.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <set>
 
@@ -65,7 +66,12 @@ TEST(ServeAccess, HostsOfOtherSitesAreRefused) {
                              "10.0.0.7:9999"}) {
         EXPECT_TRUE(is_allowed_host(host)) << host;
     }
+    char name[256] = {};
+    ASSERT_EQ(gethostname(name, sizeof name - 1), 0);
+    EXPECT_TRUE(is_allowed_host(name));
+    EXPECT_TRUE(is_allowed_host(std::string(name) + ".local:80"));
     // Anybody can register a name that resolves to this machine.
+    EXPECT_FALSE(is_allowed_host(std::string(name) + ".evil.example"));
     for (const char* host :
          {"", "evil.example", "evil.example:80", "127.0.0.1.evil.example", "localhost.evil.example",
           "[::1.evil", "[", "]", ":", "127.0.0.1@evil"}) {

@@ -5,32 +5,11 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/npm.h"
 #include "tests/window/serve/served_view.h"
 
 namespace kilolux {
 namespace {
-
-// The folder of the installed playwright-core; empty, with the reason in `why`, where a tool is
-// missing.
-fs::path install_playwright(std::string& why) {
-    const fs::path source = fs::path(source_root()) / "tests" / "window" / "browser";
-    const fs::path folder = fs::path(program_file()).parent_path() / "browser";
-    for (const char* tool : {"node", "npm", "chromium"}) {
-        if (run_child({"/usr/bin/env", tool, "--version"}).code == 0) continue;
-        why = std::string(tool) + " is not installed; tests/run installs it";
-        return {};
-    }
-    if (fs::exists(folder / "node_modules" / "playwright-core" / "index.js")) return folder;
-    fs::create_directories(folder);
-    for (const char* name : {"package.json", "package-lock.json"}) {
-        fs::copy_file(source / name, folder / name, fs::copy_options::overwrite_existing);
-    }
-    const ChildResult npm = run_child({"/usr/bin/env", "npm", "ci", "--ignore-scripts",
-                                       "--no-audit", "--no-fund", "--prefix", folder.string()});
-    if (npm.code == 0) return folder;
-    why = "npm cannot install playwright-core: " + npm.err;
-    return {};
-}
 
 // The camera's options of a copied command.
 std::string camera_in(const std::string& command) {
@@ -50,7 +29,8 @@ class ServedBrowser : public ::testing::Test {
 
 TEST_F(ServedBrowser, ShowsAndSteersTheSession) {
     std::string why;
-    const fs::path playwright = install_playwright(why);
+    const fs::path playwright =
+        install_npm("window/browser", "playwright-core", {"node", "npm", "chromium"}, why);
     if (playwright.empty()) GTEST_SKIP() << why;
     ServedView view;
     const std::string script = source_root() + "/tests/window/browser/drive.mjs";

@@ -45,13 +45,20 @@ PageAddress page_address(const std::string& text) {
             text.substr(fragment + 2, text.find('\n') - fragment - 2)};
 }
 
-PageConnection::PageConnection(const PageAddress& address)
-    : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-    sockaddr_in to{};
-    to.sin_family = AF_INET;
-    to.sin_port = htons(static_cast<std::uint16_t>(address.port));
-    inet_pton(AF_INET, address.host.c_str(), &to.sin_addr);
-    if (connect(socket_, reinterpret_cast<const sockaddr*>(&to), sizeof to) != 0) {
+PageConnection::PageConnection(const PageAddress& address) {
+    const bool is_six = address.host == "[::1]";
+    sockaddr_in four{};
+    sockaddr_in6 six{};
+    four.sin_family = AF_INET;
+    six.sin6_family = AF_INET6;
+    four.sin_port = six.sin6_port = htons(static_cast<std::uint16_t>(address.port));
+    six.sin6_addr = in6addr_loopback;
+    inet_pton(AF_INET, address.host.c_str(), &four.sin_addr);
+    socket_ = ::socket(is_six ? AF_INET6 : AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    const int failed =
+        is_six ? connect(socket_, reinterpret_cast<const sockaddr*>(&six), sizeof six)
+               : connect(socket_, reinterpret_cast<const sockaddr*>(&four), sizeof four);
+    if (failed != 0) {
         const std::string why = std::strerror(errno);
         close(socket_);
         throw std::runtime_error("connect: " + why);

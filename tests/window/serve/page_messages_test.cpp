@@ -102,7 +102,9 @@ TEST(PageMessages, AnythingElseIsRefused) {
     std::string many = "[\"text\"";
     for (int i = 0; i < 513; ++i) many += ",97";
     EXPECT_FALSE(parse_page_message(many + "]"));
-    EXPECT_FALSE(parse_page_message("[\"hello\",\"" + std::string(65, 'a') + "\",\"b\",1,1,1]"));
+    EXPECT_FALSE(parse_page_message("[\"hello\",\"a\",\"" + std::string(65, 'b') + "\",1,1,1]"));
+    // A secret with too much behind it is a wrong one, which the page says.
+    EXPECT_TRUE(parse_page_message("[\"hello\",\"" + std::string(65, 'a') + "\",\"b\",1,1,1]"));
 }
 
 // Whatever is changed in a message, it is refused or within the ranges.

@@ -23,20 +23,20 @@ const BenchmarkScene kBenchmarkScenes[] = {
     {"street", "a street by night, Lambertian; spots", make_street, kNoPoints},
     {"lantern_forest", "trees, Lambertian; 3000 points of short range", make_lantern_forest,
      kNoPoints},
-    // Rays to parts of lights with a size have no bound of their error: no shadows.
+    // No shadows: no bound is known for the error of those of lights with a size.
     {.name = "panel_wall",
      .about = "a wall of 96 rectangular lights, Lambertian and rough surfaces",
      .make = make_panel_wall,
-     .generated = kNoPoints,
-     .references = 2},
+     .generated_lights = kNoPoints,
+     .reference_count = 2},
     {.name = "million",
      .about = "blocks on a plain, Lambertian; a million points by a formula",
      .make = make_block_field,
-     .generated = LightOptions{.count = 1'000'000, .seed = 6, .radius = 2.0, .box = {}},
+     .generated_lights = LightOptions{.count = 1'000'000, .seed = 6, .radius = 2.0, .box = {}},
      .by_formula = true,
      .width = 48,
      .height = 27,
-     .references = 1},
+     .reference_count = 1},
 };
 
 constexpr BenchmarkReference kBenchmarkReferences[] = {

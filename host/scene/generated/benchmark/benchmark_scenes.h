@@ -14,16 +14,16 @@ namespace kilolux {
 struct BenchmarkScene {
     std::string_view name;  // of its files
     std::string_view about;
-    Scene (*make)();         // its cameras are the views
-    LightOptions generated;  // points beside the scene's own lights
+    Scene (*make)();                // its cameras are the views
+    LightOptions generated_lights;  // points beside the scene's own lights
     // The generated lights are too many for a file: their formula stands for them.
     bool by_formula = false;
     int width = 160;  // of the reference pictures [pixel]
     int height = 90;
-    std::size_t references = 3;  // of benchmark_references(), the first ones
+    std::size_t reference_count = 3;  // of benchmark_references(), the first ones
 };
 
-/// Six rows. The first is the atrium.
+/// The first row is the atrium.
 std::span<const BenchmarkScene> benchmark_scenes();
 
 /// A light model that reference pictures are made with.

@@ -66,6 +66,8 @@ def shape_cone(light, inner, outer):
 def add_lights(name, shadows):
     for row in csv.DictReader(open(FOLDER / (name + "_lights.csv"))):
         spot = row["type"] == "spot"
+        if not spot and row["type"] != "point":
+            sys.exit(f"blender_view.py: {name}: lights of type '{row['type']}' are not supported")
         light = bpy.data.lights.new("light", "POINT")
         rgb = [float(row[c + "_cd"]) for c in ("red", "green", "blue")]
         light.color = [c / max(rgb) for c in rgb]
@@ -116,6 +118,8 @@ def render(view, samples, output):
 
 def main():
     name, view, model, samples, output = sys.argv[sys.argv.index("--") + 1 :]
+    if model not in ("inverse_square", "inverse_square_shadows"):
+        sys.exit(f"blender_view.py: MODEL is '{model}', not inverse_square or inverse_square_shadows")
     scenes = json.loads((FOLDER / "views.json").read_text())["scenes"]
     row = next(s for s in scenes if s["name"] == name)["views"][int(view)]
     load_surfaces(name)
