@@ -11,7 +11,6 @@
 #include "host/certify/synthetic/random.h"
 #include "host/certify/synthetic/run_probe.h"
 #include "kernels/shared/tone_curve.h"
-#include "tests/support/every_width.h"
 #include "tests/support/full.h"
 #include "tests/support/test_gpu.h"
 

@@ -10,7 +10,7 @@
 
 #include "host/certify/synthetic/run_probe.h"
 #include "host/gpu/buffer.h"
-#include "tests/support/every_width.h"
+#include "tests/support/test_gpu.h"
 
 namespace kilolux {
 namespace {

@@ -11,7 +11,7 @@
 #include "host/certify/synthetic/run_probe.h"
 #include "host/gpu/buffer.h"
 #include "kernels/shared/shadow.h"
-#include "tests/support/every_width.h"
+#include "tests/support/test_gpu.h"
 
 namespace kilolux {
 namespace {

@@ -8,7 +8,7 @@
 #include "host/certify/synthetic/run_probe.h"
 #include "host/gpu/buffer.h"
 #include "kernels/shared/view.h"
-#include "tests/support/every_width.h"
+#include "tests/support/test_gpu.h"
 
 namespace kilolux {
 namespace {
