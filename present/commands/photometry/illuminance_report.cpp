@@ -256,7 +256,7 @@ std::string illuminance_text(const Illuminances& result, const LitScene& lit) {
     out += '\n';
     out += to_markdown(illuminance_table(result, lit, 0, shown), 6);
     if (shown < result.points.size()) {
-        out += fmt::format("{} more points: -o FILE.csv or --json has all\n",
+        out += fmt::format("{} more points: files of -o and --json have all\n",
                            result.points.size() - shown);
     }
     return out;

@@ -82,9 +82,16 @@ bool stretches(const GltfDocument& document, const Material& material, std::size
            (material.anisotropy_strength > 0.0f || std::ranges::any_of(document.animated, drives));
 }
 
+// A material in messages.
+std::string named(const Material& material, std::size_t index) {
+    return material.name.empty() ? fmt::format("materials[{}]", index)
+                                 : fmt::format("material '{}'", shown_uri(material.name));
+}
+
 // Renames the TEXCOORD_n that a material uses to 0 and 1 and returns their numbers. Textures of
 // further sets are left out.
-std::array<int, 2> pack_texcoord_sets(const GltfDocument& document, Material& material) {
+std::array<int, 2> pack_texcoord_sets(const GltfDocument& document, Material& material,
+                                      std::size_t index) {
     std::array<int, 2> sets = {0, 1};
     std::set<int> used;
     for (const MaterialMap& map : kMaterialMaps) {
@@ -99,9 +106,9 @@ std::array<int, 2> pack_texcoord_sets(const GltfDocument& document, Material& ma
         if (!use.present()) continue;
         if (use.uv_set != sets[0] && use.uv_set != sets[1]) {
             document.leave_out(
-                fmt::format("material '{}' uses more than two sets of texture coordinates; its "
-                            "textures of TEXCOORD_{} are left out",
-                            shown_uri(material.name), use.uv_set));
+                fmt::format("{} uses more than two sets of texture coordinates; its textures of "
+                            "TEXCOORD_{} are left out",
+                            named(material, index), use.uv_set));
             use = {};
         } else {
             use.uv_set = use.uv_set == sets[0] ? 0 : 1;
@@ -125,11 +132,11 @@ void make_unlit(const GltfDocument& document, Material& material, bool colored) 
 }
 
 // What glass lacks in the picture.
-void note_glass(const GltfDocument& document, const Material& material) {
+void note_glass(const GltfDocument& document, const Material& material, std::size_t index) {
     constexpr float kSharp = 0.1f;  // roughness of which nobody sees the blur
     if (material.transmission == 0.0f) return;
     const auto left_out = [&](std::string_view what) {
-        document.leave_out(fmt::format("material '{}': {}", shown_uri(material.name), what));
+        document.leave_out(fmt::format("{}: {}", named(material, index), what));
     };
     if (material.roughness > kSharp) left_out("rough glass does not blur what is behind it");
     if (material.thickness > 0.0f && material.ior != 1.0f)
@@ -168,8 +175,8 @@ GltfMaterials convert_materials(const GltfDocument& document) {
     for (Material& material : out.materials) {
         const std::size_t index = out.texcoord_sets.size();
         if (stretches(document, material, index)) out.stretched.insert(index);
-        out.texcoord_sets.push_back(pack_texcoord_sets(document, material));
-        note_glass(document, material);
+        out.texcoord_sets.push_back(pack_texcoord_sets(document, material, index));
+        note_glass(document, material, index);
     }
     add_line_materials(document, out);
     return out;
