@@ -322,47 +322,11 @@ static inline void cast_lights(ClusterCast cast, local GroupWalk* walk, ShadowPo
     }
 }
 
-// Classes of tiles by their number of words, two an octave; the last one has no words.
-#define ORDER_CLASSES 65
-static inline uint class_of_tile(global const uint* word_offsets, uint tile) {
-    uint words = word_offsets[tile + 1] - word_offsets[tile];
-    if (words == 0u) return ORDER_CLASSES - 1u;
-    uint octave = 31u - clz(words);
-    return 63u - 2u * octave - (words << (31u - octave) >> 30 & 1u);
-}
-
-// Lists the tiles with the most words first. Groups begin in this order, so that the last ones,
-// which few others run beside, are short. One work-group; the order within a class changes no word.
-kernel __attribute__((reqd_work_group_size(ORDER_GROUP, 1, 1))) void cast_shadows_order(
-    uint tile_count,
-    global const uint* restrict word_offsets,  // [tile_count + 1]
-    global uint* restrict tiles) {             // out [tile_count]
-    local uint places[ORDER_CLASSES];
-    for (uint i = this_item(); i < ORDER_CLASSES; i += ORDER_GROUP) places[i] = 0u;
-    barrier(CLK_LOCAL_MEM_FENCE);  // 0 before any adds to it
-    for (uint tile = this_item(); tile < tile_count; tile += ORDER_GROUP) {
-        atomic_inc(&places[class_of_tile(word_offsets, tile)]);
-    }
-    barrier(CLK_LOCAL_MEM_FENCE);  // all are counted
-    if (this_item() == 0u) {
-        uint first = 0u;
-        for (uint i = 0; i < ORDER_CLASSES; ++i) {
-            uint count = places[i];
-            places[i] = first;
-            first += count;
-        }
-    }
-    barrier(CLK_LOCAL_MEM_FENCE);  // the first place of each class
-    for (uint tile = this_item(); tile < tile_count; tile += ORDER_GROUP) {
-        tiles[atomic_inc(&places[class_of_tile(word_offsets, tile)])] = tile;
-    }
-}
-
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cast_shadows(
     LIT_ARGS, SHADOW_ARGS, WORD_ARGS(), SAMPLE_ARGS,
     global ShadowCounts* restrict counts,  // out [tiles * SPLIT] with COUNT_SHADOWS, where the
                                            // tile has lights
-    global const uint* restrict tiles) {   // of cast_shadows_order
+    global const uint* restrict tiles) {   // of order_tiles
     local GroupWalk walk;
     uint tile = tiles[get_group_id(0) / SPLIT];
     if (word_offsets[tile] == word_offsets[tile + 1]) return;

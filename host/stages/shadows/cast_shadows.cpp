@@ -28,9 +28,7 @@ KernelProgram cast_program(const Gpu& gpu, const Tuning& tuning, const KernelFea
     options.define("PICKED_ONLY", features.sampled_shadows).define("COUNT_SHADOWS", counts);
     if (tuning.shadow_group == 0) return build_program(gpu, "cast_shadows_by_bundle", options);
     if (tuning.shadow_group == 1) return build_program(gpu, "cast_shadows_by_item", options);
-    options.define("GROUP", tuning.shadow_group)
-        .define("SPLIT", split_of(features))
-        .define("ORDER_GROUP", tuning.prefix_group);
+    options.define("GROUP", tuning.shadow_group).define("SPLIT", split_of(features));
     return build_program(gpu.with_lanes(1), "cast_shadows_by_group", options);
 }
 
@@ -46,9 +44,8 @@ CastShadows::CastShadows(const Gpu& gpu, const Tuning& tuning, const KernelFeatu
       reserve_(gpu, program_, kCastShadowsStage, "cast_shadows_reserve"),
       cast_(gpu, program_, kCastShadowsStage, "cast_shadows"),
       words_(gpu, tuning, kCastShadowsStage, "words of shadow bits", sizeof(uint)),
-      counts_(gpu, kCastShadowsStage),
-      tiles_(gpu, kCastShadowsStage) {
-    if (split_ > 1) order_.emplace(gpu, program_, kCastShadowsStage, "cast_shadows_order");
+      counts_(gpu, kCastShadowsStage) {
+    if (split_ > 1) order_.emplace(gpu, tuning, kCastShadowsStage);
     words_.reserve(kFirstWords);
 }
 
@@ -82,9 +79,7 @@ void CastShadows::enqueue(const ShadowInput& input, const LitPixels& lit, const 
         gpu_.queue.enqueueFillBuffer(counts.buffer(), cl_uint{0}, 0, items * sizeof(ShadowCounts));
     }
     if (!order_) return cast_.enqueue(size, timer, lit, input, words, samples, counts);
-    const uint tile_count = lit.clusters.tile_count;
-    const DeviceArray<uint> tiles = tiles_.reserve(tile_count);
-    order_->enqueue(groups(1, tuning_.prefix_group), timer, tile_count, words.offsets, tiles);
+    const DeviceArray<uint> tiles = order_->enqueue(words.offsets, lit.clusters.tile_count, timer);
     cast_.enqueue(size, timer, lit, input, words, samples, counts, tiles);
 }
 

@@ -7,6 +7,7 @@
 #include "host/gpu/kernel.h"
 #include "host/gpu/stage_info.h"
 #include "host/gpu/surface_flow.h"
+#include "host/stages/lists/order_tiles.h"
 #include "host/stages/lists/prefix_sum.h"
 
 namespace kilolux {
@@ -52,9 +53,7 @@ class CastShadows {
     Kernel reserve_, cast_;
     CountedList words_;
     GrowingArray<ShadowCounts> counts_;  // of work-items or groups
-    // Of work-groups:
-    std::optional<Kernel> order_;
-    GrowingArray<uint> tiles_;  // in the order that they are cast
+    std::optional<OrderTiles> order_;    // in which work-groups take them
 };
 
 }  // namespace kilolux
