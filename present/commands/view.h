@@ -16,7 +16,7 @@ struct ViewOptions {
     std::string script;
     bool fresh = false;
     std::optional<ServeAddress> serve;  // in a browser; none: in a window
-    ServerOptions server;               // but its address
+    ServerOptions server;               // its address is not used: see `serve`
     bool operator==(const ViewOptions&) const = default;
 };
 

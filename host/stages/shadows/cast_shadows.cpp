@@ -96,7 +96,7 @@ StageWork cast_shadows_work(const StageCounts& c) {
                        sizeof(ActiveCluster) * c.active_clusters +
                        c.index_bytes() * c.refined_pairs + kRowBytes * c.lights;
     work.bytes_written += kWordBytes * c.shadow_words;
-    work.launches += 2;
+    work.launches += 2;  // groups have one more: order_tiles
     work.evaluations = c.shadow_rays;
     return work;
 }

@@ -200,8 +200,8 @@ bool ViewSession::is_resting() const {
     return frames_.screen().is_minimised() && !script_ && options_.exit_after == 0;
 }
 
-// Only lights move, and the screen shows fewer pictures than are made: those that it leaves out
-// would take the cores' time. A camera's picture never waits.
+// Lights move, the camera does not, and the screen has not sent the last picture: more would be
+// left out and take the cores' time. Changes of settings wait, too.
 bool ViewSession::is_ahead() const {
     return state_.lights_move && !steering_.is_moving(state_.camera_mode) && !script_ &&
            options_.exit_after == 0 && frames_.screen().is_behind();

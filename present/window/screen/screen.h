@@ -48,9 +48,9 @@ class Screen {
     virtual unsigned framebuffer_name() = 0;
     /// Shows what was drawn.
     virtual void swap() = 0;
-    /// Whether a picture under way will replace the one that is shown.
+    /// Whether a picture that is being made will replace the one that is shown.
     virtual void set_changing(bool changing) = 0;
-    /// Whether what was drawn last is not yet on its way to the user: more would be lost.
+    /// Whether what was drawn last has not been sent yet: another picture would replace it unseen.
     virtual bool is_behind() const = 0;
     virtual float content_scale() const = 0;  // of fonts: 2 on a screen of twice the usual density
     /// Whether nobody can see it.

@@ -110,9 +110,10 @@ bool is_allowed_host(std::string_view host) {
     const std::string name = name_of_host(host);
     if (name == "localhost" || is_address(AF_INET, name) || is_address(AF_INET6, name)) return true;
     const std::string own = machine_name();
-    if (own.empty()) return false;
+    if (own.empty() || !name.starts_with(own)) return false;  // no resolver is asked of others
+    if (name == own || name == own + ".local") return true;
     static const std::string whole = domain_name(own);
-    return name == own || name == own + ".local" || name == whole;
+    return name == whole;
 }
 
 bool is_same_origin(std::string_view origin, std::string_view host) {

@@ -42,6 +42,14 @@ std::string page_text(const nlohmann::json& message) {
     return message.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
+std::string close_reason(const std::string& text) {
+    std::string out = nlohmann::json::parse(page_text(text)).get<std::string>();
+    if (out.size() <= kLongestReason) return out;
+    std::size_t end = kLongestReason;
+    while ((out[end] & 0xc0) == 0x80) --end;  // within a character
+    return out.substr(0, end);
+}
+
 int send_image(lws* wsi, PageBytes& image, float transport_ms) {
     copy_to(image.bytes, kTransportAt, &transport_ms, sizeof transport_ms);
     return write_message(wsi, image.bytes.data() + LWS_PRE, image.bytes.size() - LWS_PRE,

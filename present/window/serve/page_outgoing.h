@@ -27,6 +27,9 @@ std::shared_ptr<PageBytes> page_bytes(const PageImage& image);
 /// The text of a message of JSON; bytes that are no UTF-8 are replaced.
 std::string page_text(const nlohmann::json& message);
 
+/// The beginning of a text that a close frame can hold: UTF-8 of at most kLongestReason bytes.
+std::string close_reason(const std::string& text);
+
 /// `transport_ms`: of the page's last picture.
 int send_image(lws* wsi, PageBytes& image, float transport_ms);
 int send_text(lws* wsi, const std::string& json);

@@ -28,7 +28,7 @@ inline constexpr Farewell kWrongSecret{
 inline constexpr Farewell kNotUnderstood{4003,
                                          "The server did not understand this page. Load it again."};
 inline constexpr Farewell kTooMuch{4004, "This page sent too many messages. Load it again."};
-inline constexpr Farewell kReplaced{4005, "Another page with this one's name has taken its place."};
+inline constexpr Farewell kReplaced{4005, "A copy of this page has taken its place."};
 
 /// A connected page, as the server's thread sees it.
 struct PagePeer {

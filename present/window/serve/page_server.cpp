@@ -83,6 +83,7 @@ class PageServer::Loop {
     int connections_ = 0;  // of whatever kind, listening ones too; the server's thread only
     Peers peers_;          // in the order of their coming; the server's thread only
     std::shared_ptr<PageBytes> image_;  // that is sent; the server's thread only
+    std::string ended_;                 // the reason; empty: it goes on; the server's thread only
     std::atomic<int> page_count_ = 0;
     std::atomic<int> waiting_count_ = 0;
 
@@ -264,6 +265,7 @@ void PageServer::Loop::take(PagePeer& peer, PageMessage message) {
 
 void PageServer::Loop::admit(PagePeer& peer, const HelloMessage& hello) {
     if (!same_secret(hello.secret, secret_)) return dismiss(peer, kWrongSecret);
+    if (!ended_.empty()) return dismiss(peer, {kSessionOver, ended_});
     if (peer.admitted) return dismiss(peer, kNotUnderstood);
     // A page that was loaded again, or lost its connection, takes the place of its old self.
     const auto old = std::ranges::find_if(
@@ -349,7 +351,7 @@ void PageServer::Loop::tell_driver(const std::string& json) {
 void PageServer::Loop::end(const std::string& reason) {
     {
         const std::lock_guard lock(mutex_);
-        if (end_reason_.empty()) end_reason_ = reason.substr(0, kLongestReason);
+        if (end_reason_.empty()) end_reason_ = close_reason(reason);
     }
     lws_cancel_service(context_);
 }
@@ -357,18 +359,17 @@ void PageServer::Loop::end(const std::string& reason) {
 // In the server's thread: takes what the session has for the pages.
 void PageServer::Loop::obey_session() {
     std::deque<std::string> texts;
-    bool ending = false;
     {
         const std::lock_guard lock(mutex_);
         if (newest_) image_ = std::move(newest_);
         texts.swap(driver_texts_);
-        ending = !end_reason_.empty();  // it stays as it is
+        ended_ = end_reason_;
     }
     if (PagePeer* page = driver()) {
         for (std::string& text : texts) tell(*page, std::move(text));
     }
     for (PagePeer& peer : peers_) {
-        if (ending) dismiss(peer, {kSessionOver, end_reason_});
+        if (!ended_.empty()) dismiss(peer, {kSessionOver, ended_});
         lws_callback_on_writable(peer.wsi);
     }
 }

@@ -42,9 +42,9 @@ ServedScreen::ServedScreen(const ServerOptions& options, const std::string& titl
     };
     server_ = std::make_unique<PageServer>(options, title, std::move(listener));
     if (is_loopback(options.address)) return;
-    warn(std::string("--serve: other machines can connect") +
+    warn(std::string("served window: other machines can connect") +
          (options.certificate.empty()
-              ? ", and nothing is encrypted; --tls-certificate and --tls-key do that"
+              ? ", and nothing is encrypted; kilolux view has --tls-certificate and --tls-key"
               : ""));
 }
 

@@ -21,7 +21,7 @@ namespace kilolux {
 /// its input comes back as events. Without a page it counts as minimised.
 class ServedScreen : public Screen {
  public:
-    /// A picture that none follows for so long, while none is under way, is sent without loss [s].
+    /// A picture is sent without loss when it has stood so long and no other is being made [s].
     static constexpr double kRestSeconds = 0.25;
 
     /// Throws Error where there is no headless OpenGL 4.5, or the server cannot listen.

@@ -75,7 +75,8 @@ export async function open(canvas, scene, settings) {
     await world.whenReadyAsync();
     const pixel = new Float32Array(4);
     const read = async () => target.readPixels(0, 0, null, true, false, 0, 0, scene.width, scene.height);
-    // The mask has a row of tiles for each batch of lights, one a bit of a float; a larger one is no texture, and the picture is black.
+    // The mask is a texture with verticalTiles rows for each batch of lights, of as many lights as a float has bits. Where it is taller
+    // than textures may be, the picture is black.
     const {shaderFloatPrecision, maxTextureSize} = engine.getCaps();
     const most = shaderFloatPrecision * Math.floor(maxTextureSize / container.verticalTiles);
     return {

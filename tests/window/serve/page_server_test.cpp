@@ -5,10 +5,12 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <fstream>
-#include <memory>
 #include <mutex>
 #include <random>
 #include <thread>
@@ -383,18 +385,40 @@ TEST(PageServer, APortThatIsTakenIsALine) {
     expect_refused(options);
 }
 
+// Also to pages that come afterwards, in whole characters.
+TEST(PageServer, SaysWhyItEnded) {
+    HeardServer server;
+    PageClient page = server.page();
+    const std::string umlauts = "\xff" + [] {
+        std::string out;
+        for (int i = 0; i < 100; ++i) out += "\xc3\xbc";
+        return out;
+    }();
+    server->end(umlauts);
+    const std::string expected = "\xef\xbf\xbd" + umlauts.substr(1, 120);
+    for (int i = 0; i < 2; ++i) {
+        const auto frame = page.next_of(8, kSoon);
+        ASSERT_TRUE(frame);
+        EXPECT_EQ(frame->payload.substr(2), expected);
+        PageClient late(server.address());
+        late.hello(server.address().secret);
+        page = std::move(late);
+    }
+}
+
 TEST(PageServer, ListensAtAnIpv6Address) {
+    sockaddr_in6 loopback{};
+    loopback.sin6_family = AF_INET6;
+    loopback.sin6_addr = in6addr_loopback;
+    const int probe = ::socket(AF_INET6, SOCK_STREAM, 0);
+    const int failed = bind(probe, reinterpret_cast<const sockaddr*>(&loopback), sizeof loopback);
+    close(probe);
+    if (failed != 0) GTEST_SKIP() << "the machine has no IPv6";
     ServerOptions options;
     options.address.host = "::1";
-    std::unique_ptr<PageServer> server;
-    try {
-        // The title is no UTF-8.
-        server = std::make_unique<PageServer>(
-            options, "\xff", PageListener{[](const PageMessage&) {}, [](bool) {}, [] {}});
-    } catch (const Error& error) {
-        GTEST_SKIP() << error.what();  // the machine has no IPv6
-    }
-    const PageAddress address = page_address(server->address());
+    const PageServer server(  // the title is no UTF-8
+        options, "\xff", PageListener{[](const PageMessage&) {}, [](bool) {}, [] {}});
+    const PageAddress address = page_address(server.address());
     ASSERT_EQ(address.host, "[::1]");
     PageClient page(address);
     page.hello(address.secret);
