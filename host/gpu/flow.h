@@ -55,8 +55,11 @@ struct LightInput {
     DeviceArray<DirectionalLight>
         directional{};  // [directional_count], world axes; none: no buffer
     uint directional_count = 0;
-    LightExtraInput extras{};   // world axes
-    uint seed = 0;              // of random ranges, see light_transform.h; 0: no range is random
+    LightExtraInput extras{};  // world axes
+    uint seed = 0;             // of random ranges, see light_transform.h; 0: no range is random
+    // Of each of them, its index among the lights of the frame before; none: the same. Where it is
+    // wrong, shadows that could be kept are cast again.
+    DeviceArray<uint> index_before{};
     std::uint64_t version = 0;  // equal only for equal lights; 0: unknown
     // With KernelFeatures::light_tree, lights that are in no coarse list: the nodes of a tree.
     uint node_count = 0;
@@ -74,6 +77,7 @@ struct PreparedLights {
     LightExtraInput extras;  // view space
     uint node_count = 0;     // see LightInput
     DeviceArray<TreeNode> nodes{};
+    DeviceArray<uint> index_before{};  // see LightInput
     uint rows() const { return count + node_count; }
 
     void each(auto&& set) const {  // LIGHT_ARGS

@@ -101,6 +101,17 @@ struct ShadowWords {
     }
 };
 
+/// Where shadows are cast to.
+struct ShadowTargets {
+    ShadowWords words;
+    DeviceArray<uint> kept{};  // see TARGET_ARGS; none: all are cast
+
+    void each(auto&& set) const {  // TARGET_ARGS
+        set(words);
+        set("kept", kept);
+    }
+};
+
 /// Triangles of each tile of the picture: lists[offsets[t] .. offsets[t + 1]), numbers along the
 /// instances, as kernels/surfaces/raster_tile.h has them.
 struct TriangleLists {

@@ -18,7 +18,10 @@ Visibility::Visibility(const Gpu& gpu, const Tuning& tuning, const KernelFeature
     : area_lobes_(features.sampled_shadows && features.area_lights ? AREA_LOBES_OF(features.shading)
                                                                    : 0),
       cast_(gpu, tuning, features, surfaces) {
-    if (!features.sampled_shadows) return;
+    if (!features.sampled_shadows) {
+        keep_.emplace(gpu, tuning, features, kCastShadowsStage);
+        return;
+    }
     draw_.emplace(gpu, tuning, features);
     unshadowed_.emplace(gpu, tuning, without_shadows(features), SurfaceFeatures{},
                         features.area_lights);
@@ -38,6 +41,25 @@ DeviceArray<float> Visibility::draw(const LitPixels& lit, const ShadowWords& wor
     return drawn.whole;
 }
 
+void Visibility::prepare(const GBuffer& gbuffer, const LightInput& lights) {
+    if (!keep_) return;
+    const bool same_surfaces =
+        lit_ && gbuffer.version != 0 && lit_->gbuffer.version == gbuffer.version;
+    const bool same_lights = lights.version != 0 && lights_ == lights.version;
+    lights_ = lights.version;
+    if (same_surfaces && same_lights && is_complete_) return;  // the lists stay
+    if (same_surfaces && is_complete_) keep_->save(*lit_, seen_.words, cast_.words());
+    if (!same_surfaces) keep_->forget();
+    lit_.reset();
+}
+
+void Visibility::forget() {
+    source_.reset();
+    seen_ = {};
+    lit_.reset();
+    if (keep_) keep_->forget();
+}
+
 SeenLights Visibility::enqueue(const ListedLights& lists, const GBuffer& gbuffer,
                                const ShadowInput& shadows, StageTimer& timer) {
     const Source source =
@@ -52,7 +74,13 @@ SeenLights Visibility::enqueue(const ListedLights& lists, const GBuffer& gbuffer
         seen_.samples = {{}, shadows.rays, shadows.seed};
         seen_.samples.whole = draw(lit, seen_.words, seen_.samples, timer);
     }
-    cast_.enqueue(shadows, lit, seen_.words, timer, seen_.samples);
+    if (keep_) {
+        seen_.kept = keep_->enqueue(lit, seen_.words, cast_.words(), timer);
+        lit_ = lit;
+        lit_->gbuffer.bytes = {};
+        is_complete_ = false;
+    }
+    cast_.enqueue(shadows, lit, {seen_.words, seen_.kept}, timer, seen_.samples);
     source_ = source;
     return seen_;
 }
@@ -63,7 +91,7 @@ ShadowCounts Visibility::count(const ListedLights& lists, const GBuffer& gbuffer
     StageTimer untimed;
     const LitPixels lit = lists.at(gbuffer);
     if (draw_) draw(lit, seen.words, seen.samples, untimed);
-    counting.enqueue(shadows, lit, seen.words, untimed, seen.samples);
+    counting.enqueue(shadows, lit, {seen.words, seen.kept}, untimed, seen.samples);
     ShadowCounts out = counting.counts();
     out.words = cast_.words();
     return out;

@@ -8,6 +8,7 @@
 #include "host/stages/shading/shade.h"
 #include "host/stages/shadows/cast_shadows.h"
 #include "host/stages/shadows/draw_shadows.h"
+#include "host/stages/shadows/keep_shadows.h"
 
 namespace kilolux {
 
@@ -16,6 +17,7 @@ namespace kilolux {
 struct SeenLights {
     ShadowWords words;
     ShadowSamples samples;
+    DeviceArray<uint> kept{};  // see ShadowTargets
 };
 
 /// Finds out which of the lights in its list each pixel sees: by CastShadows, after DrawShadows
@@ -26,10 +28,21 @@ class Visibility {
     Visibility(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
                const SurfaceFeatures& surfaces);
 
-    /// Casts the rays; kept while the version of the lists stays and the rays are picked alike.
-    /// Blocks for the number of words. Valid until the next call.
+    /// Called before the lists of a frame are made: keeps the last frame's exact shadows for it,
+    /// where it has the same surfaces and its lights may be others.
+    void prepare(const GBuffer& gbuffer, const LightInput& lights);
+
+    /// Casts the rays; all are kept while the version of the lists stays and the rays are picked
+    /// alike, those of lights that stand still where prepare() kept them. Blocks for the number of
+    /// words. Valid until the next call.
     SeenLights enqueue(const ListedLights& lists, const GBuffer& gbuffer,
                        const ShadowInput& shadows, StageTimer& timer);
+
+    /// The lists of the last enqueue() were complete, so that a later frame may keep its shadows.
+    void confirm() { is_complete_ = true; }
+
+    /// Releases what the last enqueue() holds.
+    void forget();
 
     /// Counts the work of casting `seen`, the last enqueue()'s result, by casting it again with the
     /// `counting` kernels. Blocks.
@@ -59,6 +72,10 @@ class Visibility {
     float ambient_ = 0.0f;
     std::optional<Source> source_;
     SeenLights seen_;
+    std::optional<KeepShadows> keep_;  // with exact shadows
+    std::optional<LitPixels> lit_;     // of the last enqueue()
+    std::uint64_t lights_ = 0;         // the version of its lights
+    bool is_complete_ = false;
 };
 
 }  // namespace kilolux

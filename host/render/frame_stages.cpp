@@ -50,6 +50,7 @@ void FrameStages::draw_surfaces(const Sample& sample, LitBand& band, Measured ou
 }
 
 void FrameStages::list_lights(const Sample& sample, LitBand& band, Measured out) {
+    if (visibility_) visibility_->prepare(band.surfaces, sample.lights);
     if (lists_) {
         band.lists = lists_->enqueue(sample.lights, band.surfaces, band.grid, out.timer,
                                      layers_ ? layers_->more_pixels() : MorePixels{});
@@ -93,6 +94,7 @@ void FrameStages::count(Measured out) {
 Room FrameStages::room(const LitBand& band, Measured out) {
     Room out_room;
     out_room.lists = lists_ ? lists_->fits(out.timer) : has_coarse_;
+    if (visibility_ && out_room.lists) visibility_->confirm();
     out_room.surfaces = forward_ || surfaces_->fits(out.stats);
     if (layers_) {
         const bool surfaces = layers_->surfaces_fit(), lists = layers_->lists_fit(out.timer);

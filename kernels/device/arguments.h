@@ -81,6 +81,18 @@
 #define WORD_ARGS(access) \
     global const uint *restrict word_offsets, global access uint *restrict words
 
+// ShadowTargets. kept: a bit for each word, 1 for the first word of a light whose bits are there
+// already; null: none is.
+#define TARGET_ARGS WORD_ARGS(), global const uint* restrict kept
+
+// ShadowsBefore. clusters_before: in the order of `clusters`.
+#define BEFORE_ARGS                                                                                \
+    global const float4 *restrict bounds_before, uint count_before,                                \
+        global const DirectionalLight *restrict directional_before, uint directional_count_before, \
+        global const ActiveCluster *restrict clusters_before,                                      \
+        global const LIGHT_INDEX *restrict lists_before,                                           \
+        global const uint *restrict word_offsets_before, global const uint *restrict words_before
+
 // ShadowSamples. whole: RADIANCE_PLANES, the radiance if all lights are seen.
 #define SAMPLE_ARGS global const float *restrict whole, float rays, uint seed
 

@@ -48,6 +48,13 @@ static inline ShadowLight light_of_cluster(CastLights from, ShadowView shadow,
     return out;
 }
 
+#if !PICKED_ONLY
+// Whether the bits of a light whose first word is this one are there already.
+static inline bool is_kept(global const uint* kept, uint word) {
+    return kept != 0 && (kept[word / 32u] >> word % 32u & 1u) != 0u;
+}
+#endif
+
 static inline uint key_of_tile(View view, CastLights from, uint tile) {
     uint tiles_x = fine_tiles_x(view);
     return tile_key(view, from.seed, tile % tiles_x * FINE_TILE, tile / tiles_x * FINE_TILE);

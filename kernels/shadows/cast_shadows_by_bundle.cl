@@ -43,7 +43,7 @@ static inline void cast_slots(ShadowRays rays, CastLights from, ShadowLight ligh
 }
 
 kernel void cast_shadows(
-    LIT_ARGS, SHADOW_ARGS, WORD_ARGS(), SAMPLE_ARGS,
+    LIT_ARGS, SHADOW_ARGS, TARGET_ARGS, SAMPLE_ARGS,
     global ShadowCounts* restrict counts) {  // out [work-items] with COUNT_SHADOWS, where the tile
                                              // has lights
     ItemPlace at = place_in_planes(view);
@@ -68,6 +68,10 @@ kernel void cast_shadows(
         if (!lane_any(walks.wanted)) continue;
         ShadowBits bits = bits_of_cluster(words + word_offsets[at.tile], clusters + i, place);
         for (uint j = 0; j < count_of_cluster(from, clusters + i); ++j) {
+#if !PICKED_ONLY
+            uint word = word_offsets[at.tile] + clusters[i].first_word + j * bits.stride;
+            if (is_kept(kept, word)) continue;
+#endif
             ShadowLight light = light_of_cluster(from, shadow, clusters + i, j, key);
             cast_slots(walks, from, light, slots_of(from, j), slots_before(from, j), bits, words);
         }

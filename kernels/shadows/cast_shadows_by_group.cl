@@ -301,7 +301,7 @@ static inline bool cast_area_lights(ClusterCast cast, AreaPixels pixels, local G
     bool others = false;
     uint count = count_of_cluster(cast.from, cast.cluster);
     for (uint j = get_group_id(0) % SPLIT; j < count; j += 32u * SPLIT) {
-        for (uint bits = find_picked(cast, j, walk); bits != 0u; bits &= bits - 1u) {
+        for (uint bits = find_wanted(cast, j, walk); bits != 0u; bits &= bits - 1u) {
             uint light = j + lowest_bit(bits) * SPLIT;
             others |= !cast_area_light(cast, light, pixels, walk, counted);
         }
@@ -315,7 +315,7 @@ static inline void cast_lights(ClusterCast cast, local GroupWalk* walk, ShadowPo
     uint count = count_of_cluster(cast.from, cast.cluster);
     for (uint j = get_group_id(0) % SPLIT; j < count; j += 32u * SPLIT) {
         uint left = (count - j + SPLIT - 1u) / SPLIT;
-        uint bits = find_picked(cast, j, walk) & (0xffffffffu >> (32u - min(left, 32u)));
+        uint bits = find_wanted(cast, j, walk) & (0xffffffffu >> (32u - min(left, 32u)));
         for (; bits != 0u; bits &= bits - 1u) {
             cast_light(cast, j + lowest_bit(bits) * SPLIT, walk, points);
         }
@@ -323,7 +323,7 @@ static inline void cast_lights(ClusterCast cast, local GroupWalk* walk, ShadowPo
 }
 
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cast_shadows(
-    LIT_ARGS, SHADOW_ARGS, WORD_ARGS(), SAMPLE_ARGS,
+    LIT_ARGS, SHADOW_ARGS, TARGET_ARGS, SAMPLE_ARGS,
     global ShadowCounts* restrict counts,  // out [tiles * SPLIT] with COUNT_SHADOWS, where the
                                            // tile has lights
     global const uint* restrict tiles) {   // of order_tiles
@@ -333,6 +333,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cast_shadows(
     Clusters active = CLUSTERS_OF_ARGS;
     ClusterCast cast = {SHADOW_SCENE_OF_ARGS, CAST_LIGHTS_OF_ARGS};
     cast.key = key_of_tile(view, cast.from, tile);
+    cast.kept = kept;
     ShadowPoints points;
     reset_counts(&points);
     FOR_EACH_CLUSTER(i, active, tile) {
@@ -340,7 +341,8 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cast_shadows(
         cast.first = clusters[i].first_pixel;
         cast.end = cast.first + clusters[i].pixel_count;
         cast.count = shadow_words(cast.first, cast.end);
-        cast.words = words + word_offsets[tile] + clusters[i].first_word;
+        cast.first_word = word_offsets[tile] + clusters[i].first_word;
+        cast.words = words + cast.first_word;
 #if AREA_SHADOWS
         AreaPixels pixels = {GBUFFER_OF_ARGS, origins, order, tile};
         if (!cast_area_lights(cast, pixels, &walk, &points)) continue;

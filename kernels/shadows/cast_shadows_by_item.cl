@@ -89,7 +89,7 @@ static inline void cast_light(ShadowScene scene, ShadowLight light, ClusterBits 
 }
 
 kernel __attribute__((reqd_work_group_size(1, 1, 1))) void cast_shadows(
-    LIT_ARGS, SHADOW_ARGS, WORD_ARGS(), SAMPLE_ARGS,
+    LIT_ARGS, SHADOW_ARGS, TARGET_ARGS, SAMPLE_ARGS,
     global ShadowCounts* restrict counts) {  // out [tiles] with COUNT_SHADOWS, where the tile has
                                              // lights
     uint tile = get_global_id(0);
@@ -114,6 +114,8 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void cast_shadows(
             bits.words = cluster_words + slots_before(from, j) * count;
 #if PICKED_ONLY
             if (!is_picked_by_any(from, j, bits.words, count)) continue;
+#else
+            if (is_kept(kept, (uint)(bits.words - words))) continue;
 #endif
             ShadowLight light = light_of_cluster(from, shadow, clusters + i, j, key);
 #if AREA_SHADOWS

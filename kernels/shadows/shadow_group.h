@@ -78,6 +78,8 @@ typedef struct ClusterCast {
     uint first, end;     // the cluster's pixels are first .. end - 1 in the tile's order
     uint count;          // words of each slot
     global uint* words;  // of the cluster
+    uint first_word;     // of the cluster, among those of all tiles
+    global const uint* kept;
 } ClusterCast;
 
 static inline uint this_item(void) { return get_local_id(0); }
@@ -117,7 +119,7 @@ static inline ShadowLight light_of_cast(ClusterCast cast, uint j) {
 
 #if PICKED_ONLY
 // Which of the cluster's lights first, first + SPLIT, ..., 32 of them at most, any pixel picks.
-static inline uint find_picked(ClusterCast cast, uint first, local GroupWalk* walk) {
+static inline uint find_wanted(ClusterCast cast, uint first, local GroupWalk* walk) {
     barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);  // the last ones are done
     if (this_item() == 0u) walk->picked = 0u;
     barrier(CLK_LOCAL_MEM_FENCE);  // 0 before any adds to it
@@ -133,7 +135,17 @@ static inline uint find_picked(ClusterCast cast, uint first, local GroupWalk* wa
     return walk->picked;
 }
 #else
-#define find_picked(cast, first, walk) 0xffffffffu
+// Which of them are not kept.
+static inline uint find_wanted(ClusterCast cast, uint first, local GroupWalk* walk) {
+    uint wanted = 0xffffffffu;
+    if (cast.kept == 0) return wanted;
+    uint count = min(count_of_cluster(cast.from, cast.cluster) - first, 32u * SPLIT);
+    for (uint k = 0; k * SPLIT < count; ++k) {
+        uint word = cast.first_word + (first + k * SPLIT) * cast.count;
+        if (is_kept(cast.kept, word)) wanted &= ~(1u << k);
+    }
+    return wanted;
+}
 #endif
 
 // Starts a walk at the root, for no points: `lit` is 0 until an item sets it.

@@ -2,6 +2,8 @@
 #include "host/render/lights/light_source.h"
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 #include "host/base/system/parallel.h"
 #include "host/render/lights/light_order.h"
@@ -58,6 +60,8 @@ LightSource::LightSource(const Gpu& gpu, const Tuning& tuning, const Scene& scen
       mix_(settings.light_mix),
       asked_options_(settings.lights),
       generated_(gpu, tuning),
+      keeps_shadows_(settings.shadows == Shadows::exact),
+      index_before_(gpu, "lights"),
       move_(gpu, tuning),
       directional_(gpu, "lights"),
       profile_starts_(profile_starts(scene.webs)),
@@ -233,6 +237,25 @@ void LightSource::upload() {
     kilolux::upload<DirectionalLight>(gpu_, directional_.reserve(directional.size()), directional);
 }
 
+// LightInput::index_before after a new order.
+DeviceArray<uint> LightSource::upload_index_before() {
+    if (order_ == order_before_) return {};
+    constexpr uint kNone = std::numeric_limits<uint>::max();
+    std::vector<uint> index_of(own_.size() + far_.size(), kNone);
+    for (std::size_t i = 0; i < order_before_.size(); ++i) {
+        if (order_before_[i] < index_of.size()) index_of[order_before_[i]] = static_cast<uint>(i);
+    }
+    std::vector<uint> out(list_count());
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const bool drifts = i >= order_.size();
+        out[i] = drifts ? static_cast<uint>(i - order_.size() + order_before_.size())
+                        : index_of[order_[i]];
+    }
+    const DeviceArray<uint> to = index_before_.reserve(out.size());
+    kilolux::upload<uint>(gpu_, to, out);
+    return to;
+}
+
 // Whether every generated light is usable from here, so that the device may place them.
 bool LightSource::drifts_near(const glm::dvec3& camera_position) const {
     const Box& box = generated_.box();
@@ -260,6 +283,8 @@ void LightSource::update(double time, const Camera& camera, FrameStats& stats) {
         input_camera_.reset();
         is_drifted_ = false;
         is_ordered_ = false;  // until it is done
+        if (keeps_shadows_ && !is_new_order_) order_before_ = std::move(order_);
+        is_new_order_ = true;
         find_order(camera.position);
         upload();
         is_ordered_ = true;
@@ -282,6 +307,9 @@ LightInput LightSource::input(const glm::dvec3& camera_position, bool reuse, Sta
     input_.count = static_cast<uint>(list_count());
     input_.directional = directional_.get();
     input_.directional_count = static_cast<uint>(directional_order_.size());
+    const bool is_new_order = std::exchange(is_new_order_, false);
+    input_.index_before =
+        is_new_order && keeps_shadows_ ? upload_index_before() : DeviceArray<uint>();
     input_camera_ = camera_position;
     ++input_.version;
     return input_;

@@ -77,6 +77,7 @@ class LightSource {
     void plant_tree(const std::vector<std::uint32_t>& members);
     void upload();
     void upload_tables();
+    DeviceArray<uint> upload_index_before();
     void upload_groups();
     SceneLight drifting_light() const { return drifting() > 0 ? generated_.first() : SceneLight(); }
     bool has_area_lights() const;
@@ -103,7 +104,11 @@ class LightSource {
     // Numbers of the lights that the host places, own_ before far_: usable point and spot lights in
     // the order of the kernels; directional ones.
     std::vector<std::uint32_t> order_, directional_order_;
-    bool is_ordered_ = false;                 // order_ and directional_order_ are up to date
+    bool is_ordered_ = false;    // order_ and directional_order_ are up to date
+    bool keeps_shadows_;         // input_.index_before is of use
+    bool is_new_order_ = false;  // since the last input(); then, order_ before:
+    std::vector<std::uint32_t> order_before_;
+    GrowingArray<uint> index_before_;
     std::optional<glm::dvec3> order_camera_;  // from where they are usable, if that matters
     std::optional<glm::dvec3> input_camera_;  // of input_; none: to be made
     LightInput input_;

@@ -43,6 +43,7 @@ PreparedLights PrepareLights::enqueue(const LightInput& input, const View& view,
     out.directional_count = input.directional_count;
     out.node_count = input.node_count;
     out.nodes = input.nodes;
+    out.index_before = input.index_before;
     const uint rows = out.rows();
     out.lights = lights_.reserve(rows);
     out.bounds = bounds_.reserve(rows);

@@ -56,7 +56,8 @@ ShadowWords CastShadows::reserve(const PreparedLights& lights, const ActiveClust
                      slots, clusters, words_.counts(tiles));
     ShadowWords out;
     out.offsets = words_.enqueue_offsets(tiles, timer);
-    words_.fits(words_.read_total());
+    word_count_ = words_.read_total();
+    words_.fits(word_count_);
     out.words = words_.entries<uint>();
     return out;
 }
@@ -68,7 +69,7 @@ WorkSize CastShadows::work_size(uint tiles, const View& view) const {
     return groups(std::size_t{tiles} * static_cast<std::size_t>(split_), group);
 }
 
-void CastShadows::enqueue(const ShadowInput& input, const LitPixels& lit, const ShadowWords& words,
+void CastShadows::enqueue(const ShadowInput& input, const LitPixels& lit, const ShadowTargets& to,
                           StageTimer& timer, const ShadowSamples& samples) {
     const WorkSize size = work_size(lit.clusters.tile_count, lit.gbuffer.view);
     DeviceArray<ShadowCounts> counts;
@@ -78,9 +79,10 @@ void CastShadows::enqueue(const ShadowInput& input, const LitPixels& lit, const 
         counts = counts_.reserve(items);
         gpu_.queue.enqueueFillBuffer(counts.buffer(), cl_uint{0}, 0, items * sizeof(ShadowCounts));
     }
-    if (!order_) return cast_.enqueue(size, timer, lit, input, words, samples, counts);
-    const DeviceArray<uint> tiles = order_->enqueue(words.offsets, lit.clusters.tile_count, timer);
-    cast_.enqueue(size, timer, lit, input, words, samples, counts, tiles);
+    if (!order_) return cast_.enqueue(size, timer, lit, input, to, samples, counts);
+    const DeviceArray<uint> tiles =
+        order_->enqueue(to.words.offsets, lit.clusters.tile_count, timer);
+    cast_.enqueue(size, timer, lit, input, to, samples, counts, tiles);
 }
 
 ShadowCounts CastShadows::counts() const {

@@ -31,13 +31,14 @@ class CastShadows {
     ShadowWords reserve(const PreparedLights& lights, const ActiveClusters& clusters,
                         StageTimer& timer, uint slots = 1);
 
-    /// Casts into what reserve() returned; with KernelFeatures::sampled_shadows the words hold what
-    /// DrawShadows picked by `samples`. Enqueues only.
-    void enqueue(const ShadowInput& input, const LitPixels& lit, const ShadowWords& words,
+    /// Casts into what reserve() returned, but for what is kept there; with
+    /// KernelFeatures::sampled_shadows the words hold what DrawShadows picked by `samples`.
+    /// Enqueues only.
+    void enqueue(const ShadowInput& input, const LitPixels& lit, const ShadowTargets& to,
                  StageTimer& timer, const ShadowSamples& samples = {});
 
     /// Words of 32 bits of the last reserve().
-    std::uint64_t words() const { return words_.read_total(); }
+    std::uint64_t words() const { return word_count_; }
 
     /// What the last enqueue() counted; without words. Blocks.
     ShadowCounts counts() const;
@@ -52,6 +53,7 @@ class CastShadows {
     KernelProgram program_;
     Kernel reserve_, cast_;
     CountedList words_;
+    std::uint64_t word_count_ = 0;
     GrowingArray<ShadowCounts> counts_;  // of work-items or groups
     std::optional<OrderTiles> order_;    // in which work-groups take them
 };

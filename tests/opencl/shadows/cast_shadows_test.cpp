@@ -57,11 +57,11 @@ CastFrame cast_frame(int lanes, int group, std::uint32_t light_count = 70, uint 
                             origins_of(gpu, features, gbuffer)};
     CastShadows cast(gpu, tuning, features, {}), counting(gpu, tuning, features, {}, true);
     const ShadowWords words = cast.reserve(lists.lights, lists.clusters, timer);
-    cast.enqueue(input, lists.at(gbuffer), words, timer);
+    cast.enqueue(input, lists.at(gbuffer), {words}, timer);
     const std::size_t size = std::size_t{3} * view.stride * view.height;
     CastFrame out;
     out.words = download(gpu, words.words, cast.words());
-    counting.enqueue(input, lists.at(gbuffer), words, timer);
+    counting.enqueue(input, lists.at(gbuffer), {words}, timer);
     out.counts = counting.counts();
     EXPECT_EQ(download(gpu, words.words, cast.words()), out.words) << "counting changes a bit";
     Shade shade(gpu, tuning, features);
@@ -71,7 +71,7 @@ CastFrame cast_frame(int lanes, int group, std::uint32_t light_count = 70, uint 
     out.all =
         download<float>(gpu, shade_all.enqueue(gbuffer, lists.lights, timer, input).planes, size);
     CountSeen count(gpu, tuning, features);
-    const SeenCounts counts = count.enqueue(lists.at(gbuffer), words, timer);
+    const SeenCounts counts = count.enqueue(lists.at(gbuffer), {words}, timer);
     const auto depth01 = download<float>(gpu, gbuffer.bytes.buffer(), size / 3);
     const auto seen = download<uint>(gpu, counts.seen, size / 3);
     const auto facing = download<uint>(gpu, counts.facing, size / 3);
@@ -150,14 +150,14 @@ void expect_deep_shadows(int group, uint levels, bool are_known) {
     if (are_known) input.view.levels = levels;
     CastShadows cast(gpu, tuning, features, {}, true);
     const ShadowWords words = cast.reserve(lists.lights, lists.clusters, timer);
-    cast.enqueue(input, lists.at(gbuffer), words, timer);
+    cast.enqueue(input, lists.at(gbuffer), {words}, timer);
     EXPECT_GT(cast.counts().rays, 0u);
     EXPECT_EQ(cast.counts().seen, 0u);
     for (const uint word : download(gpu, words.words, cast.words())) EXPECT_EQ(word, 0u);
     tuning.shadow_group = 1;
     CastShadows by_item(gpu, tuning, features, {}, true);
     const ShadowWords others = by_item.reserve(lists.lights, lists.clusters, timer);
-    by_item.enqueue(input, lists.at(gbuffer), others, timer);
+    by_item.enqueue(input, lists.at(gbuffer), {others}, timer);
     EXPECT_EQ(cast.counts().rays, by_item.counts().rays)
         << "of a cluster with more points than items";
 }
