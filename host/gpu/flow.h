@@ -60,7 +60,8 @@ struct LightInput {
     // Of each of them, its index among the lights of the frame before; none: the same. Where it is
     // wrong, shadows that could be kept are cast again.
     DeviceArray<uint> index_before{};
-    std::uint64_t version = 0;  // equal only for equal lights; 0: unknown
+    bool have_all_moved = false;  // since the frame before: no shadow can be kept
+    std::uint64_t version = 0;    // equal only for equal lights; 0: unknown
     // With KernelFeatures::light_tree, lights that are in no coarse list: the nodes of a tree.
     uint node_count = 0;
     DeviceArray<TreeNode> nodes{};  // [node_count]

@@ -48,8 +48,11 @@ void Visibility::prepare(const GBuffer& gbuffer, const LightInput& lights) {
     const bool same_lights = lights.version != 0 && lights_ == lights.version;
     lights_ = lights.version;
     if (same_surfaces && same_lights && is_complete_) return;  // the lists stay
-    if (same_surfaces && is_complete_) keep_->save(*lit_, seen_.words, cast_.words());
-    if (!same_surfaces) keep_->forget();
+    if (!same_surfaces || lights.have_all_moved) {
+        keep_->forget();
+    } else if (is_complete_) {
+        keep_->save(*lit_, seen_.words, cast_.words());
+    }
     lit_.reset();
 }
 

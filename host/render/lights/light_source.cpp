@@ -310,6 +310,8 @@ LightInput LightSource::input(const glm::dvec3& camera_position, bool reuse, Sta
     const bool is_new_order = std::exchange(is_new_order_, false);
     input_.index_before =
         is_new_order && keeps_shadows_ ? upload_index_before() : DeviceArray<uint>();
+    const bool has_drifted = std::exchange(input_time_, time_) != time_;
+    input_.have_all_moved = has_drifted && order_.empty() && directional_order_.empty();
     input_camera_ = camera_position;
     ++input_.version;
     return input_;

@@ -111,6 +111,7 @@ class LightSource {
     GrowingArray<uint> index_before_;
     std::optional<glm::dvec3> order_camera_;  // from where they are usable, if that matters
     std::optional<glm::dvec3> input_camera_;  // of input_; none: to be made
+    std::optional<double> input_time_;        // of input_
     LightInput input_;
     MoveLights move_;
     GrowingArray<DirectionalLight> directional_;

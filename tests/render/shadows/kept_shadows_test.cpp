@@ -101,6 +101,25 @@ TEST(KeptShadows, NothingIsKeptFromAnotherCamera) {
     EXPECT_EQ(frame.radiance, wanted.radiance);
 }
 
+// Generated lights that stand keep their shadows beside one of the scene's that moves.
+TEST(KeptShadows, GeneratedLightsCountToo) {
+    Scene scene = make_generated_scene("grid");
+    LightOptions one;
+    one.count = 1;
+    scene.lights = generate_lights(one, scene, 0.0);
+    const Camera camera = first_camera(scene);
+    const RenderSettings settings = kept_settings(200);
+    Renderer renderer(scene, settings);
+    renderer.render(camera, 0.0);
+    Mover(scene).move(1);
+    const Frame frame = renderer.render(camera, 0.0);
+    const Frame wanted = anew(scene, camera, settings);
+    EXPECT_EQ(frame.radiance, wanted.radiance);
+    EXPECT_LT(frame.stats.shadows.rays, wanted.stats.shadows.rays / 25);
+    const Frame later = renderer.render(camera, 0.5);
+    EXPECT_EQ(later.radiance, anew(scene, camera, settings, 0.5).radiance);
+}
+
 // Lights that move, change, come and go beside generated ones; cameras and grids change, too.
 TEST(KeptShadows, ChangeNoByteOfRandomEdits) {
     Scene scene = scene_with_points(60);
