@@ -83,8 +83,8 @@ function(check_include room file include)
       complain(${file} "includes ${include}: ${room} may include only ${allowed_${room}}")
     elseif(room STREQUAL host/stages AND target MATCHES "^host/stages/")
       get_filename_component(stem ${file} NAME_WE)
-      # prefix_sum.h and order_tiles.h are parts of other stages; instruction_counts.h and shading_resources.h are not stages; drift_lights is timed as a part of move_lights.
-      if(NOT name STREQUAL "${stem}.h" AND NOT name MATCHES "^(prefix_sum|order_tiles|instruction_counts|shading_resources)\\.h$"
+      # prefix_sum.h, order_tiles.h and keep_shadows.h are parts of other stages; instruction_counts.h and shading_resources.h are not stages; drift_lights is timed as a part of move_lights.
+      if(NOT name STREQUAL "${stem}.h" AND NOT name MATCHES "^(prefix_sum|order_tiles|keep_shadows|instruction_counts|shading_resources)\\.h$"
          AND NOT "${stem} ${name}" STREQUAL "drift_lights move_lights.h")
         complain(${file} "includes ${include}: a stage knows no other stage")
       endif()

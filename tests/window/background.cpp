@@ -9,7 +9,8 @@ namespace kilolux {
 
 void wait_for(const std::string& what, const std::function<bool()>& is_so) {
     using Clock = std::chrono::steady_clock;
-    const auto end = Clock::now() + std::chrono::minutes(4);  // before the test ends by its own limit
+    const auto end =
+        Clock::now() + std::chrono::minutes(4);  // before the test ends by its own limit
     while (!is_so()) {
         if (Clock::now() > end) throw std::runtime_error("four minutes, and not yet: " + what);
         std::this_thread::sleep_for(std::chrono::milliseconds(50));

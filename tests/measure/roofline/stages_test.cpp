@@ -50,6 +50,7 @@ TEST(Stages, HaveEveryKernel) {
     const std::map<std::string, std::string> launched_by = {
         {"store_lights", "shade"},
         {"drift_lights", "move_lights"},
+        {"keep_shadows", "cast_shadows"},
         {"order_tiles", "cast_shadows"},
         {"prefix_sum", "cull_lights"},
         {"tail_bound", "tail_errors"},

@@ -107,6 +107,7 @@ TEST(KeptShadows, GeneratedLightsCountToo) {
     LightOptions one;
     one.count = 1;
     scene.lights = generate_lights(one, scene, 0.0);
+    scene.lights[0].range = 0.1f * static_cast<float>(glm::length(bounds(scene).size()));
     const Camera camera = first_camera(scene);
     const RenderSettings settings = kept_settings(200);
     Renderer renderer(scene, settings);
