@@ -48,18 +48,12 @@ TEST(Stages, OfForwardFramesAreDeclared) {
 // A kernel belongs to the stage with whose name its own begins, or to another one that launches it.
 TEST(Stages, HaveEveryKernel) {
     const std::map<std::string, std::string> launched_by = {
-        {"store_lights", "shade"},
-        {"drift_lights", "move_lights"},
-        {"keep_shadows", "cast_shadows"},
-        {"order_tiles", "cast_shadows"},
-        {"prefix_sum", "cull_lights"},
-        {"tail_bound", "tail_errors"},
-        {"tail_moments", "tail_errors"},
-        {"tail_variance", "tail_errors"},
-        {"tree_bound", "tail_errors"},
-        {"tree_cones", "cut_light_tree"},
-        {"measure_limits", ""},
-        {"measure_texels", ""}};  // of no picture
+        {"store_lights", "shade"},        {"drift_lights", "move_lights"},
+        {"keep_shadows", "cast_shadows"}, {"order_tiles", "cast_shadows"},
+        {"prefix_sum", "cull_lights"},    {"tail_bound", "tail_errors"},
+        {"tail_moments", "tail_errors"},  {"tail_variance", "tail_errors"},
+        {"tree_bound", "tail_errors"},    {"tree_cones", "cut_light_tree"},
+        {"measure_limits", ""},           {"measure_texels", ""}};  // of no picture
     std::size_t kernels = 0;
     for (const auto& entry :
          std::filesystem::recursive_directory_iterator(source_root() + "/kernels")) {
