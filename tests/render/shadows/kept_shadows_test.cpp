@@ -101,6 +101,23 @@ TEST(KeptShadows, NothingIsKeptFromAnotherCamera) {
     EXPECT_EQ(frame.radiance, wanted.radiance);
 }
 
+TEST(KeptShadows, NothingIsKeptFromAnotherGrid) {
+    Scene scene = scene_with_points(100);
+    const Camera camera = first_camera(scene);
+    RenderSettings settings = kept_settings();
+    Renderer renderer(scene, settings);
+    renderer.render(camera, 0.0);
+    Mover mover(scene);
+    mover.move(1);
+    renderer.render(camera, 0.0);
+    settings.grid.slices_per_octave *= 2;
+    renderer.change(settings);
+    const Frame frame = renderer.render(camera, 0.0);
+    const Frame wanted = anew(scene, camera, settings);
+    EXPECT_EQ(frame.radiance, wanted.radiance);
+    EXPECT_EQ(frame.stats.shadows.rays, wanted.stats.shadows.rays);
+}
+
 // Generated lights that stand keep their shadows beside one of the scene's that moves.
 TEST(KeptShadows, GeneratedLightsCountToo) {
     Scene scene = make_generated_scene("grid");
