@@ -12,55 +12,77 @@ constexpr int kItems = 8;  // for each tile
 
 }  // namespace
 
+KeepShadows::Copies::Copies(const Gpu& gpu, std::string_view stage)
+    : bounds(gpu, stage),
+      directional(gpu, stage),
+      clusters(gpu, stage),
+      lists(gpu, stage),
+      offsets(gpu, stage),
+      words(gpu, stage) {}
+
 KeepShadows::KeepShadows(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
                          std::string_view stage)
     : gpu_(gpu),
       tuning_(tuning),
+      stage_(stage),
       kernel_(gpu,
               build_program(gpu, "keep_shadows",
                             feature_options(features).define("KEEP_ITEMS", kItems)),
               stage, "keep_shadows"),
-      bounds_(gpu, stage),
-      directional_(gpu, stage),
-      clusters_(gpu, stage),
-      lists_(gpu, stage),
-      offsets_(gpu, stage),
-      words_(gpu, stage),
       kept_(gpu, stage) {}
+
+bool KeepShadows::has_room(std::uint64_t bytes) const {
+    if (!gpu_.budget) return true;
+    const std::uint64_t used = gpu_.budget->used, limit = gpu_.budget->limit;
+    return used <= limit && 2 * bytes <= limit - used;
+}
 
 template <typename T>
 DeviceArray<T> KeepShadows::copy(GrowingArray<T>& to, const DeviceArray<T>& from,
                                  std::size_t count) {
     const DeviceArray<T> out = to.reserve(count);
-    if (count > 0) {
-        gpu_.queue.enqueueCopyBuffer(from, out, 0, 0, count * sizeof(T));
-    }
+    if (count > 0) gpu_.queue.enqueueCopyBuffer(from, out, 0, 0, count * sizeof(T));
     return out;
 }
 
-void KeepShadows::save(const LitPixels& lit, const ShadowWords& shadows, std::uint64_t words) {
-    forget();
+ShadowsBefore KeepShadows::copy(const LitPixels& lit, const ShadowWords& shadows,
+                                std::uint64_t words) {
     const PreparedLights& lights = lit.lights;
     ShadowsBefore out;
     out.light_count = lights.count;
     out.directional_count = lights.directional_count;
-    try {
-        out.bounds = copy(bounds_, lights.bounds, lights.count);
-        out.directional = copy(directional_, lights.directional, lights.directional_count);
-        out.clusters = copy(clusters_, lit.clusters.clusters, lit.clusters.clusters.count());
-        out.lists = copy(lists_, lit.refined.lists, lit.refined.lists.count());
-        out.shadows.offsets =
-            copy(offsets_, shadows.offsets, std::size_t{lit.clusters.tile_count} + 1);
-        out.shadows.words = copy(words_, shadows.words, words);
-    } catch (const Error&) {
-        return;  // no room
+    out.bounds = copy(copies_->bounds, lights.bounds, lights.count);
+    out.directional = copy(copies_->directional, lights.directional, lights.directional_count);
+    out.clusters = copy(copies_->clusters, lit.clusters.clusters, lit.clusters.clusters.count());
+    out.lists = copy(copies_->lists, lit.refined.lists, lit.refined.lists.count());
+    out.shadows.offsets =
+        copy(copies_->offsets, shadows.offsets, std::size_t{lit.clusters.tile_count} + 1);
+    out.shadows.words = copy(copies_->words, shadows.words, words);
+    return out;
+}
+
+void KeepShadows::save(const LitPixels& lit, const ShadowWords& shadows, std::uint64_t words) {
+    before_.reset();
+    if (!copies_) {
+        const std::uint64_t bytes = lit.lights.count * sizeof(float4) +
+                                    lit.clusters.clusters.count() * sizeof(ActiveCluster) +
+                                    lit.refined.lists.count() + words * sizeof(uint);
+        if (!has_room(bytes)) return;
+        copies_.emplace(gpu_, stage_);
     }
-    before_ = std::move(out);
+    try {
+        before_ = copy(lit, shadows, words);
+    } catch (const Error&) {
+        return forget();  // no room
+    }
     gbuffer_ = lit.gbuffer.version;
     grid_ = lit.clusters.grid;
 }
 
-void KeepShadows::forget() { before_.reset(); }
+void KeepShadows::forget() {
+    before_.reset();
+    copies_.reset();
+}
 
 DeviceArray<uint> KeepShadows::enqueue(const LitPixels& lit, const ShadowWords& shadows,
                                        std::uint64_t words, StageTimer& timer) {

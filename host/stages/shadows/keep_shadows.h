@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
@@ -41,8 +43,8 @@ class KeepShadows {
                 std::string_view stage);
 
     /// Copies a frame's complete lists and shadows, `words` of them, before another frame
-    /// overwrites them. Where the device has no room for the copies, nothing is kept. Enqueues
-    /// only.
+    /// overwrites them. Nothing is kept where device or budget have no room for the copies and for
+    /// as much again. Enqueues only.
     void save(const LitPixels& lit, const ShadowWords& shadows, std::uint64_t words);
 
     /// Releases them.
@@ -55,20 +57,29 @@ class KeepShadows {
                               StageTimer& timer);
 
  private:
+    struct Copies {
+        Copies(const Gpu& gpu, std::string_view stage);
+        GrowingArray<float4> bounds;
+        GrowingArray<DirectionalLight> directional;
+        GrowingArray<ActiveCluster> clusters;
+        GrowingArray<std::byte> lists;
+        GrowingArray<uint> offsets, words;
+    };
+
+    bool has_room(std::uint64_t bytes) const;
     template <typename T>
     DeviceArray<T> copy(GrowingArray<T>& to, const DeviceArray<T>& from, std::size_t count);
+    ShadowsBefore copy(const LitPixels& lit, const ShadowWords& shadows, std::uint64_t words);
 
     Gpu gpu_;
     Tuning tuning_;
+    std::string stage_;
     Kernel kernel_;
-    GrowingArray<float4> bounds_;
-    GrowingArray<DirectionalLight> directional_;
-    GrowingArray<ActiveCluster> clusters_;
-    GrowingArray<std::byte> lists_;
-    GrowingArray<uint> offsets_, words_, kept_;
-    std::optional<ShadowsBefore> before_;
-    std::uint64_t gbuffer_ = 0;  // version of the saved frame's
-    ClusterGrid grid_{};         // of the saved frame
+    GrowingArray<uint> kept_;
+    std::optional<Copies> copies_;
+    std::optional<ShadowsBefore> before_;  // in copies_
+    std::uint64_t gbuffer_ = 0;            // version of the saved frame's
+    ClusterGrid grid_{};                   // of the saved frame
 };
 
 }  // namespace kilolux
