@@ -57,8 +57,8 @@ struct LightInput {
     uint directional_count = 0;
     LightExtraInput extras{};  // world axes
     uint seed = 0;             // of random ranges, see light_transform.h; 0: no range is random
-    // Of each of them, its index among the lights of the frame before; none: the same. Where it is
-    // wrong, shadows that could be kept are cast again.
+    // [count]: the index that each light had in the frame before; none: the same. Where one is
+    // wrong, its shadows are cast again.
     DeviceArray<uint> index_before{};
     bool have_all_moved = false;  // since the frame before: no shadow can be kept
     std::uint64_t version = 0;    // equal only for equal lights; 0: unknown

@@ -20,7 +20,11 @@ void DeferredLighting::set_ambient(float ambient) {
 Radiance DeferredLighting::enqueue(const LightingInput& input, StageTimer& timer) {
     if (visibility_) check_input(input.shadows, input.gbuffer.view);
     release();  // arrays that grow must not be held twice
-    if (visibility_) visibility_->prepare(input.gbuffer, input.lights);
+    // The others' lights are there already, and so the last ones are not.
+    if (visibility_ && !input.others &&
+        !light_lists_.has_made(input.lights, input.gbuffer, input.grid)) {
+        visibility_->save_last(light_lists_, input.lights, input.gbuffer, timer);
+    }
     lists_ = input.others ? light_lists_.enqueue_sharing(*input.others, input.gbuffer, timer)
                           : light_lists_.enqueue(input.lights, input.gbuffer, input.grid, timer);
     if (visibility_) seen_ = visibility_->enqueue(lists_, input.gbuffer, input.shadows, timer);
@@ -39,11 +43,7 @@ void DeferredLighting::forget() {
     if (visibility_) visibility_->forget();
 }
 
-bool DeferredLighting::fits(StageTimer& timer) {
-    const bool fits = light_lists_.fits(timer);
-    if (fits && visibility_) visibility_->confirm();
-    return fits;
-}
+bool DeferredLighting::fits(StageTimer& timer) { return light_lists_.fits(timer); }
 
 Radiance DeferredLighting::light(const LightingInput& input, StageTimer& timer) {
     return repeat_until_fits(

@@ -9,6 +9,15 @@
 #include "host/lighting/check_input.h"
 
 namespace kilolux {
+namespace {
+
+ListSource source_of(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
+                     const MorePixels& more) {
+    return {gbuffer.version, more.maker ? more.gbuffer.version : 0, input.version, input.seed,
+            grid};
+}
+
+}  // namespace
 
 LightLists::LightLists(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
     : gpu_(gpu),
@@ -18,6 +27,11 @@ LightLists::LightLists(const Gpu& gpu, const Tuning& tuning, const KernelFeature
       refine_(gpu, tuning, features),
       count_(gpu, tuning) {
     if (features.light_tree) cut_.emplace(gpu, tuning, features);
+}
+
+bool LightLists::has_made(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
+                          const MorePixels& more) const {
+    return is_made_of(source_of(input, gbuffer, grid, more));
 }
 
 ListedLights LightLists::run(const LightInput& input, const GBuffer& gbuffer,
@@ -32,8 +46,7 @@ ListedLights LightLists::enqueue(const LightInput& input, const GBuffer& gbuffer
     check_input(gbuffer);
     check_input(grid, gbuffer.view);
     assert(!more.maker || gbuffer.version == 0 || more.gbuffer.version != 0);
-    const ListSource source{gbuffer.version, more.maker ? more.gbuffer.version : 0, input.version,
-                            input.seed, grid};
+    const ListSource source = source_of(input, gbuffer, grid, more);
     if (more.maker) more.maker->clusters_.reset();
     // They hold coarse lists of the last time, which may grow.
     if (more.maker && !is_made_of(source)) more.maker->made_.reset();

@@ -67,6 +67,13 @@ class LightLists {
  public:
     LightLists(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
+    /// Whether enqueue() would return its last lists.
+    bool has_made(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
+                  const MorePixels& more = {}) const;
+
+    /// Whether fits() has found the last enqueue()'s lists complete.
+    bool are_complete() const { return made_ && is_checked_; }
+
     /// Also lists the lights of coarse clusters without pixels: for tests.
     void list_everywhere() {
         everywhere_ = true;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/lighting/visibility.h"
 
+#include <utility>
+
 #include "kernels/shared/shadow.h"
 
 namespace kilolux {
@@ -41,19 +43,18 @@ DeviceArray<float> Visibility::draw(const LitPixels& lit, const ShadowWords& wor
     return drawn.whole;
 }
 
-void Visibility::prepare(const GBuffer& gbuffer, const LightInput& lights) {
+void Visibility::save_last(const LightLists& lists, const LightInput& lights,
+                           const GBuffer& gbuffer, StageTimer& timer) {
     if (!keep_) return;
-    const bool same_surfaces =
+    const bool has_same_surfaces =
         lit_ && gbuffer.version != 0 && lit_->gbuffer.version == gbuffer.version;
-    const bool same_lights = lights.version != 0 && lights_ == lights.version;
-    lights_ = lights.version;
-    if (same_surfaces && same_lights && is_complete_) return;  // the lists stay
-    if (!same_surfaces || lights.have_all_moved) {
+    if (has_same_surfaces && lists.are_complete() && !lights.have_all_moved) {
+        keep_->save(*lit_, {seen_.words, cast_.words()}, lists.counts(), timer);
+    } else {
         keep_->forget();
-    } else if (is_complete_) {
-        keep_->save(*lit_, seen_.words, cast_.words());
     }
     lit_.reset();
+    is_saved_next_ = true;
 }
 
 void Visibility::forget() {
@@ -77,11 +78,10 @@ SeenLights Visibility::enqueue(const ListedLights& lists, const GBuffer& gbuffer
         seen_.samples = {{}, shadows.rays, shadows.seed};
         seen_.samples.whole = draw(lit, seen_.words, seen_.samples, timer);
     }
-    if (keep_) {
-        seen_.kept = keep_->enqueue(lit, seen_.words, cast_.words(), timer);
+    if (keep_) seen_.kept = keep_->enqueue(lit, {seen_.words, cast_.words()}, timer);
+    if (std::exchange(is_saved_next_, false)) {
         lit_ = lit;
-        lit_->gbuffer.bytes = {};
-        is_complete_ = false;
+        lit_->gbuffer.bytes = {};  // may grow
     }
     cast_.enqueue(shadows, lit, {seen_.words, seen_.kept}, timer, seen_.samples);
     source_ = source;

@@ -28,20 +28,18 @@ class Visibility {
     Visibility(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
                const SurfaceFeatures& surfaces);
 
-    /// Called before the lists of a frame are made: keeps the last frame's exact shadows for it,
-    /// where it has the same surfaces and its lights may be others.
-    void prepare(const GBuffer& gbuffer, const LightInput& lights);
+    /// Before `lists` make others than their last ones: saves the last frame's exact shadows, so
+    /// that enqueue() casts only those of lights that have moved, if the surfaces are the same.
+    void save_last(const LightLists& lists, const LightInput& lights, const GBuffer& gbuffer,
+                   StageTimer& timer);
 
-    /// Casts the rays; all are kept while the version of the lists stays and the rays are picked
-    /// alike, those of lights that stand still where prepare() kept them. Blocks for the number of
-    /// words. Valid until the next call.
+    /// Casts the rays, but those of save_last(). Returns the last result while the version of the
+    /// lists stays and the rays are picked alike. Blocks for the number of words. Valid until the
+    /// next call.
     SeenLights enqueue(const ListedLights& lists, const GBuffer& gbuffer,
                        const ShadowInput& shadows, StageTimer& timer);
 
-    /// The lists of the last enqueue() were complete, so that a later frame may keep its shadows.
-    void confirm() { is_complete_ = true; }
-
-    /// Releases what the last enqueue() holds.
+    /// Releases the last results.
     void forget();
 
     /// Counts the work of casting `seen`, the last enqueue()'s result, by casting it again with the
@@ -73,9 +71,8 @@ class Visibility {
     std::optional<Source> source_;
     SeenLights seen_;
     std::optional<KeepShadows> keep_;  // with exact shadows
-    std::optional<LitPixels> lit_;     // of the last enqueue()
-    std::uint64_t lights_ = 0;         // the version of its lights
-    bool is_complete_ = false;
+    bool is_saved_next_ = false;       // save_last() was called for the next enqueue()
+    std::optional<LitPixels> lit_;     // of the last enqueue() then
 };
 
 }  // namespace kilolux

@@ -50,10 +50,12 @@ void FrameStages::draw_surfaces(const Sample& sample, LitBand& band, Measured ou
 }
 
 void FrameStages::list_lights(const Sample& sample, LitBand& band, Measured out) {
-    if (visibility_) visibility_->prepare(band.surfaces, sample.lights);
     if (lists_) {
-        band.lists = lists_->enqueue(sample.lights, band.surfaces, band.grid, out.timer,
-                                     layers_ ? layers_->more_pixels() : MorePixels{});
+        const MorePixels more = layers_ ? layers_->more_pixels() : MorePixels{};
+        if (visibility_ && !lists_->has_made(sample.lights, band.surfaces, band.grid, more)) {
+            visibility_->save_last(*lists_, sample.lights, band.surfaces, out.timer);
+        }
+        band.lists = lists_->enqueue(sample.lights, band.surfaces, band.grid, out.timer, more);
     }
     if (!coarse_) return;
     const View view =
@@ -94,7 +96,6 @@ void FrameStages::count(Measured out) {
 Room FrameStages::room(const LitBand& band, Measured out) {
     Room out_room;
     out_room.lists = lists_ ? lists_->fits(out.timer) : has_coarse_;
-    if (visibility_ && out_room.lists) visibility_->confirm();
     out_room.surfaces = forward_ || surfaces_->fits(out.stats);
     if (layers_) {
         const bool surfaces = layers_->surfaces_fit(), lists = layers_->lists_fit(out.timer);

@@ -81,8 +81,8 @@
 #define WORD_ARGS(access) \
     global const uint *restrict word_offsets, global access uint *restrict words
 
-// ShadowTargets. kept: a bit for each word, 1 for the first word of a light whose bits are there
-// already; null: none is.
+// ShadowTargets. kept: a bit for each word, set for the first word of a light in a cluster if its
+// words are there already; null: none are.
 #define TARGET_ARGS WORD_ARGS(), global const uint* restrict kept
 
 // ShadowsBefore. clusters_before: in the order of `clusters`.

@@ -341,8 +341,8 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cast_shadows(
         cast.first = clusters[i].first_pixel;
         cast.end = cast.first + clusters[i].pixel_count;
         cast.count = shadow_words(cast.first, cast.end);
-        cast.first_word = word_offsets[tile] + clusters[i].first_word;
-        cast.words = words + cast.first_word;
+        cast.words_begin = word_offsets[tile] + clusters[i].first_word;
+        cast.words = words + cast.words_begin;
 #if AREA_SHADOWS
         AreaPixels pixels = {GBUFFER_OF_ARGS, origins, order, tile};
         if (!cast_area_lights(cast, pixels, &walk, &points)) continue;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Takes over the bits that another frame cast for the same pixels and clusters: those of lights
+// Takes over the bits that the saved frame has for the same pixels and clusters: those of lights
 // that stand where they stood. A work-item takes every KEEP_ITEMS-th light of a tile's clusters.
 #include "kernels/device/lit_item.h"
 #include "kernels/shadows/shadow_bits.h"
 
-// The lights of the other frame.
+// The lights of the saved frame.
 typedef struct LightsBefore {
     global const float4* bounds;
     uint count;
@@ -34,8 +34,8 @@ static inline uint place_in_list(global const LIGHT_INDEX* list, uint count, uin
     return first < count && list[first] == index ? first : NO_PLACE;
 }
 
-// Where the other frame's list of a cluster has the light at `index`, which had `index_before`
-// there.
+// Place among the saved bits of a cluster of the light that had `index_before` then and has `bound`
+// now.
 static inline uint place_before(LightsBefore before, global const ActiveCluster* cluster,
                                 float4 bound, uint index_before) {
     if (index_before >= before.count || !same_bits(bound, before.bounds[index_before])) {

@@ -78,7 +78,7 @@ typedef struct ClusterCast {
     uint first, end;     // the cluster's pixels are first .. end - 1 in the tile's order
     uint count;          // words of each slot
     global uint* words;  // of the cluster
-    uint first_word;     // of the cluster, among those of all tiles
+    uint words_begin;    // of the cluster, among those of all tiles
     global const uint* kept;
 } ClusterCast;
 
@@ -135,13 +135,13 @@ static inline uint find_wanted(ClusterCast cast, uint first, local GroupWalk* wa
     return walk->picked;
 }
 #else
-// Which of them are not kept.
+// Which of the cluster's lights first, first + SPLIT, ..., 32 of them at most, are not kept.
 static inline uint find_wanted(ClusterCast cast, uint first, local GroupWalk* walk) {
     uint wanted = 0xffffffffu;
     if (cast.kept == 0) return wanted;
     uint count = min(count_of_cluster(cast.from, cast.cluster) - first, 32u * SPLIT);
     for (uint k = 0; k * SPLIT < count; ++k) {
-        uint word = cast.first_word + (first + k * SPLIT) * cast.count;
+        uint word = cast.words_begin + (first + k * SPLIT) * cast.count;
         if (is_kept(cast.kept, word)) wanted &= ~(1u << k);
     }
     return wanted;

@@ -60,7 +60,7 @@ LightSource::LightSource(const Gpu& gpu, const Tuning& tuning, const Scene& scen
       mix_(settings.light_mix),
       asked_options_(settings.lights),
       generated_(gpu, tuning),
-      keeps_shadows_(settings.shadows == Shadows::exact),
+      tracks_order_(settings.shadows == Shadows::exact),
       index_before_(gpu, "lights"),
       move_(gpu, tuning),
       directional_(gpu, "lights"),
@@ -283,7 +283,7 @@ void LightSource::update(double time, const Camera& camera, FrameStats& stats) {
         input_camera_.reset();
         is_drifted_ = false;
         is_ordered_ = false;  // until it is done
-        if (keeps_shadows_ && !is_new_order_) order_before_ = std::move(order_);
+        if (tracks_order_ && !is_new_order_) order_before_ = std::move(order_);
         is_new_order_ = true;
         find_order(camera.position);
         upload();
@@ -309,7 +309,7 @@ LightInput LightSource::input(const glm::dvec3& camera_position, bool reuse, Sta
     input_.directional_count = static_cast<uint>(directional_order_.size());
     const bool is_new_order = std::exchange(is_new_order_, false);
     input_.index_before =
-        is_new_order && keeps_shadows_ ? upload_index_before() : DeviceArray<uint>();
+        is_new_order && tracks_order_ ? upload_index_before() : DeviceArray<uint>();
     const bool has_drifted = std::exchange(input_time_, time_) != time_;
     input_.have_all_moved = has_drifted && order_.empty() && directional_order_.empty();
     input_camera_ = camera_position;

@@ -105,8 +105,8 @@ class LightSource {
     // the order of the kernels; directional ones.
     std::vector<std::uint32_t> order_, directional_order_;
     bool is_ordered_ = false;    // order_ and directional_order_ are up to date
-    bool keeps_shadows_;         // input_.index_before is of use
-    bool is_new_order_ = false;  // since the last input(); then, order_ before:
+    bool tracks_order_;          // input_.index_before is of use
+    bool is_new_order_ = false;  // order_ changed since the last input(), which had order_before_
     std::vector<std::uint32_t> order_before_;
     GrowingArray<uint> index_before_;
     std::optional<glm::dvec3> order_camera_;  // from where they are usable, if that matters

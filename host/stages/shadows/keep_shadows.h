@@ -9,8 +9,15 @@
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
 #include "host/gpu/surface_flow.h"
+#include "kernels/shared/clusters.h"
 
 namespace kilolux {
+
+/// A frame's shadow words and how many they are.
+struct CountedWords {
+    ShadowWords shadows;
+    std::uint64_t count = 0;
+};
 
 /// Copies of a frame's exact shadows and of what they belong to, for a frame of the same pixels and
 /// grid.
@@ -42,19 +49,19 @@ class KeepShadows {
     KeepShadows(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
                 std::string_view stage);
 
-    /// Copies a frame's complete lists and shadows, `words` of them, before another frame
-    /// overwrites them. Nothing is kept where device or budget have no room for the copies and for
-    /// as much again. Enqueues only.
-    void save(const LitPixels& lit, const ShadowWords& shadows, std::uint64_t words);
+    /// Copies a frame's complete lists, of `counts`, and shadows before another frame overwrites
+    /// them. Nothing is kept where device or budget have no room for the copies and for as much
+    /// again. Enqueues only.
+    void save(const LitPixels& lit, const CountedWords& words, const PairCounts& counts,
+              StageTimer& timer);
 
-    /// Releases them.
+    /// Releases the copies.
     void forget();
 
-    /// Fills in the words, `words` of them, of lights that have the positions and ranges of the
-    /// saved frame, and returns which these are: ShadowTargets::kept. Without a saved frame of the
-    /// same pixels and grid: none. Valid until the next call. Enqueues only.
-    DeviceArray<uint> enqueue(const LitPixels& lit, const ShadowWords& shadows, std::uint64_t words,
-                              StageTimer& timer);
+    /// Fills in the words of lights that have the positions and ranges of the saved frame, and
+    /// returns which these are: ShadowTargets::kept. Without a saved frame of the same pixels and
+    /// grid: none. Valid until the next call. Enqueues only.
+    DeviceArray<uint> enqueue(const LitPixels& lit, const CountedWords& words, StageTimer& timer);
 
  private:
     struct Copies {
@@ -67,19 +74,19 @@ class KeepShadows {
     };
 
     bool has_room(std::uint64_t bytes) const;
-    template <typename T>
-    DeviceArray<T> copy(GrowingArray<T>& to, const DeviceArray<T>& from, std::size_t count);
-    ShadowsBefore copy(const LitPixels& lit, const ShadowWords& shadows, std::uint64_t words);
+    ShadowsBefore copy(const LitPixels& lit, const CountedWords& words, const PairCounts& counts,
+                       StageTimer& timer);
 
     Gpu gpu_;
     Tuning tuning_;
+    KernelFeatures features_;
     std::string stage_;
-    Kernel kernel_;
+    std::optional<Kernel> kernel_;  // once anything was saved
     GrowingArray<uint> kept_;
     std::optional<Copies> copies_;
     std::optional<ShadowsBefore> before_;  // in copies_
-    std::uint64_t gbuffer_ = 0;            // version of the saved frame's
-    ClusterGrid grid_{};                   // of the saved frame
+    std::uint64_t gbuffer_version_ = 0;    // of the saved frame
+    ClusterGrid grid_{};                   // likewise
 };
 
 }  // namespace kilolux

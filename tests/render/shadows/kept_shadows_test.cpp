@@ -118,6 +118,53 @@ TEST(KeptShadows, NothingIsKeptFromAnotherGrid) {
     EXPECT_EQ(frame.stats.shadows.rays, wanted.stats.shadows.rays);
 }
 
+// A pane that blends, low over the whole floor.
+void add_pane(Scene& scene) {
+    const Box box = bounds(scene);
+    const double y = glm::mix(box.min.y, box.max.y, 0.2);
+    Material material;
+    material.base_color.w = 0.7f;
+    material.alpha_mode = AlphaMode::blend;
+    scene.materials.push_back(material);
+    Mesh mesh;
+    for (const glm::dvec2 at :
+         {glm::dvec2(box.min.x, box.min.z), glm::dvec2(box.min.x, box.max.z),
+          glm::dvec2(box.max.x, box.max.z), glm::dvec2(box.max.x, box.min.z)}) {
+        mesh.positions.emplace_back(at.x, y, at.y);
+    }
+    mesh.normals.assign(4, {0, 1, 0});
+    mesh.indices = {0, 1, 2, 0, 2, 3};
+    mesh.material = static_cast<int>(scene.materials.size()) - 1;
+    scene.meshes.push_back(mesh);
+    scene.instances.push_back({static_cast<int>(scene.meshes.size()) - 1, glm::dmat4(1.0)});
+}
+
+// Layers of surfaces that blend have shadows of their own.
+TEST(KeptShadows, ThroughSurfacesThatBlend) {
+    Scene scene = scene_with_points(40);
+    add_pane(scene);
+    const Camera camera = first_camera(scene);
+    const RenderSettings settings = kept_settings();
+    Renderer renderer(scene, settings);
+    renderer.render(camera, 0.0);
+    Mover mover(scene);
+    const glm::dvec3 size = bounds(scene).size();
+    for (int i = 0; i < 6; ++i) {
+        if (i % 2 == 0) {
+            mover.move(3);
+        } else {  // their order stays
+            for (SceneLight& light : scene.lights) {
+                light.position.x += 0.1 * size.x;
+                light.direction = glm::normalize(light.direction + glm::dvec3(0.3, 0.0, 0.2));
+            }
+            ++scene.revisions.lights;
+        }
+        const Frame frame = renderer.render(camera, 0.0);
+        EXPECT_EQ(frame.stats.layers, 1u);
+        EXPECT_EQ(frame.radiance, anew(scene, camera, settings).radiance) << i;
+    }
+}
+
 // Generated lights that stand keep their shadows beside one of the scene's that moves.
 TEST(KeptShadows, GeneratedLightsCountToo) {
     Scene scene = make_generated_scene("grid");
