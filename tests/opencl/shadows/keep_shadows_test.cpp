@@ -45,8 +45,10 @@ class KeptFrame {
     // Of lights in another order, one of which and a directional one have moved; with the bits of
     // the first lights, where they are kept.
     Cast cast_others(bool keeps) {
-        make(lights_, {{{0, 0, 1, 0}, {1, 1, 1, 0}}, {{0, 1, 0, 0}, {1, 1, 1, 0}}}, {}, false,
-             keeps);
+        if (keeps) {
+            make(lights_, {{{0, 0, 1, 0}, {1, 1, 1, 0}}, {{0, 1, 0, 0}, {1, 1, 1, 0}}}, {}, false,
+                 true);
+        }
         std::vector<Light> others = lights_;
         others[5].position_range.x += 0.5f;
         std::ranges::rotate(others, others.begin() + 4);
