@@ -36,12 +36,12 @@ bool KeepShadows::has_room(std::uint64_t bytes) const {
 
 ShadowsBefore KeepShadows::copy(const LitPixels& lit, const CountedWords& words,
                                 const PairCounts& counts, StageTimer& timer) {
-    const auto copied = [&]<typename T>(GrowingArray<T>& to, const DeviceArray<T>& from,
-                                        std::size_t count) {
-        const DeviceArray<T> out = to.reserve(count);
+    const auto copied = [&](auto& to, const auto& from, std::size_t count) {
+        const auto out = to.reserve(count);
         if (count == 0) return out;
+        const std::size_t bytes = count * sizeof(typename decltype(out)::value_type);
         cl::Event done;
-        gpu_.queue.enqueueCopyBuffer(from, out, 0, 0, count * sizeof(T), nullptr, &done);
+        gpu_.queue.enqueueCopyBuffer(from, out, 0, 0, bytes, nullptr, &done);
         timer.record(stage_, done);
         return out;
     };
