@@ -335,11 +335,12 @@ void ViewSession::describe_panel(Actions& actions) {
     settings.lights();
     PanelLights{settings}.own_lights(steering_.rig());
     PanelGroups{settings}.groups();
-    stats.speed();
     settings.clusters();
     settings.camera(steering_.rig());
-    stats.error();
     settings.window();
+    // Last, since new results change their heights: no control above moves under the mouse.
+    stats.speed();
+    stats.error();
     stats.device();
     ImGui::End();
 }

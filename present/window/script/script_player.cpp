@@ -189,12 +189,16 @@ void ScriptPlayer::add_press(int button, int action, int modifiers) {
 
 // Brings the mouse to the middle of a widget, and presses Ctrl where `modifiers` has it.
 void ScriptPlayer::add_reach(const std::string& widget, int modifiers) {
-    actions_.push_back([this, widget] { return reach(widget); });
-    actions_.push_back([this, widget, modifiers] {
+    // New results move widgets: until it stands where the mouse is.
+    actions_.push_back([this, widget] {
+        if (!reach(widget)) return false;
+        const MoveEvent before = mouse_;
         move_to(place_of(widget).middle_x(), place_of(widget).middle_y());
-        if (modifiers != 0) {
-            stage_.screen.post(KeyEvent{GLFW_KEY_LEFT_CONTROL, 0, GLFW_PRESS, modifiers});
-        }
+        return mouse_.x == before.x && mouse_.y == before.y;
+    });
+    if (modifiers == 0) return;
+    actions_.push_back([this, modifiers] {
+        stage_.screen.post(KeyEvent{GLFW_KEY_LEFT_CONTROL, 0, GLFW_PRESS, modifiers});
         return true;
     });
     add_wait(1);
