@@ -93,10 +93,12 @@ void define_casters(BuildOptions& options, const SurfaceFeatures& surfaces, cons
 /// Bits that say which pixels see which lights, laid out as in kernels/shadows/cast_shadows.h.
 struct ShadowWords {
     DeviceArray<uint> offsets;  // [tile_count + 1]
+    uint capacity = 0;          // words that there is room for
     DeviceArray<uint> words;
 
     void each(auto&& set) const {  // WORD_ARGS
         set("word_offsets", offsets);
+        set("word_capacity", capacity);
         set("words", words);
     }
 };

@@ -43,7 +43,12 @@ void DeferredLighting::forget() {
     if (visibility_) visibility_->forget();
 }
 
-bool DeferredLighting::fits(StageTimer& timer) { return light_lists_.fits(timer); }
+bool DeferredLighting::fits(StageTimer& timer) {
+    if (!light_lists_.fits(timer)) return false;
+    if (!visibility_ || visibility_->fits()) return true;
+    light_lists_.forget();  // so that the next frame has all stages
+    return false;
+}
 
 Radiance DeferredLighting::light(const LightingInput& input, StageTimer& timer) {
     return repeat_until_fits(

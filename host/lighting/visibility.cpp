@@ -57,6 +57,12 @@ void Visibility::save_last(const LightLists& lists, const LightInput& lights,
     is_saved_next_ = true;
 }
 
+bool Visibility::fits() {
+    if (!source_ || cast_.fits()) return true;
+    forget();
+    return false;
+}
+
 void Visibility::forget() {
     source_.reset();
     seen_ = {};
@@ -78,7 +84,7 @@ SeenLights Visibility::enqueue(const ListedLights& lists, const GBuffer& gbuffer
         seen_.samples = {{}, shadows.rays, shadows.seed};
         seen_.samples.whole = draw(lit, seen_.words, seen_.samples, timer);
     }
-    if (keep_) seen_.kept = keep_->enqueue(lit, {seen_.words, cast_.words()}, timer);
+    if (keep_) seen_.kept = keep_->enqueue(lit, seen_.words, timer);
     if (std::exchange(is_saved_next_, false)) {
         lit_ = lit;
         lit_->gbuffer.bytes = {};  // may grow

@@ -34,10 +34,14 @@ class Visibility {
                    StageTimer& timer);
 
     /// Casts the rays, but those of save_last(). Returns the last result while the version of the
-    /// lists stays and the rays are picked alike. Blocks for the number of words. Valid until the
-    /// next call.
+    /// lists stays and the rays are picked alike. Blocks only where fits() did not say that there
+    /// is room; see CastShadows::reserve(). Valid until the next call.
     SeenLights enqueue(const ListedLights& lists, const GBuffer& gbuffer,
                        const ShadowInput& shadows, StageTimer& timer);
+
+    /// Once the lists of the last enqueue() are complete: false where its result had no room and is
+    /// not valid; the next one makes it. Waits for the number of words.
+    bool fits();
 
     /// Releases the last results.
     void forget();

@@ -22,6 +22,7 @@ typedef struct LightSource {
     uint directional_count;
 #if SHADOWS || MARK_CANDIDATES
     global const uint* word_offsets;  // WORD_ARGS
+    uint word_capacity;
     global WORDS_ACCESS uint* words;
 #endif
 #if TINTED_SHADOWS
@@ -55,6 +56,10 @@ static inline LightSum source_sum(LightSource from, GBuffer g, ItemPlace at, Lit
     load_origins(&points, 0u, from.origins, g.view.stride * g.view.height, item.pixels);
 #endif
     LightSum sum = parallel;
+#if SHADOWS || MARK_CANDIDATES
+    wanted = wanted && has_words(from.word_offsets, from.word_capacity, at.tile,
+                                 fine_tile_count(g.view));
+#endif
     FOR_EACH_CLUSTER(i, from.clusters, at.tile) {
         global const ActiveCluster* cluster = from.clusters.clusters + i;
         MASK mine = lanes_in_cluster(item, from.clusters, i);
@@ -98,6 +103,7 @@ kernel void shade(LIT_ARGS, WORD_ARGS(WORDS_ACCESS), TINT_ARGS SAMPLE_ARGS, OUTP
 #endif
 #if SHADOWS || MARK_CANDIDATES
     from.word_offsets = word_offsets;
+    from.word_capacity = word_capacity;
     from.words = words;
 #endif
 #if TINTED_SHADOWS

@@ -12,9 +12,8 @@
 #include "kernels/shadows/shadow_pick.h"
 
 kernel void draw_shadows_clear(WORD_ARGS(), uint tile_count) {
-    for (size_t i = get_global_id(0); i < word_offsets[tile_count]; i += get_global_size(0)) {
-        words[i] = 0u;
-    }
+    uint count = min(word_offsets[tile_count], word_capacity);
+    for (size_t i = get_global_id(0); i < count; i += get_global_size(0)) words[i] = 0u;
 }
 
 #if HAS_AREA_LIGHTS
@@ -38,6 +37,7 @@ static inline void put_slots(ShadowBits bits, uint first, MASK mine, FV pairs, g
 
 kernel void draw_shadows(LIT_ARGS, WORD_ARGS(), SAMPLE_ARGS) {
     BEGIN_ORDERED_ITEM;
+    if (!HAS_WORDS(at.tile)) return;
     Surface s = load_surface(g, item.pixels, item.z);
     ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
     ShadowPick pick = make_pick(s, p, SAMPLES_OF_ARGS, view, item.pixels, at);

@@ -63,6 +63,7 @@ kernel void tail_variance(LIT_ARGS, WORD_ARGS(const), SAMPLE_ARGS,
     FOR_EACH_CLUSTER_OF(item, i, mine, active, at.tile) {
         ShadowBits bits;
 #if SHADOWS
+        if (!HAS_WORDS(at.tile)) continue;
         bits =
             bits_of_cluster(words + word_offsets[at.tile], clusters + i, place_of_item(at.x, at.y));
 #endif

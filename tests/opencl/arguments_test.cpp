@@ -16,7 +16,7 @@ std::string error_of_launch(const Gpu& gpu, std::string_view text) {
     StageTimer timer;
     try {
         Kernel kernel(gpu, build_probe(gpu, {}, text), "stage", "probe");
-        const ShadowWords words{new_buffer(gpu, std::vector<uint>(4)),
+        const ShadowWords words{new_buffer(gpu, std::vector<uint>(4)), 4,
                                 new_buffer(gpu, std::vector<uint>(4))};
         kernel.enqueue(items(1, 1), timer, words, 2.0f);
         gpu.queue.finish();
@@ -29,23 +29,23 @@ std::string error_of_launch(const Gpu& gpu, std::string_view text) {
 TEST(Arguments, AreComparedByNameAndType) {
     const Gpu gpu = test_gpu();
     const auto error = [&](std::string_view text) { return error_of_launch(gpu, text); };
-    EXPECT_EQ(error("kernel void probe(global uint* word_offsets, global uint* words, float x) {}"),
-              "");
+    const auto with = [](const std::string& first, const std::string& last) {
+        return "kernel void probe(" + first + ", uint word_capacity, " + last + ") {}";
+    };
+    EXPECT_EQ(error(with("global uint* word_offsets", "global uint* words, float x")), "");
     EXPECT_EQ(
-        error("kernel void probe(global uint* words, global uint* word_offsets, float x) {}"),
+        error(with("global uint* words", "global uint* word_offsets, float x")),
         "stage: argument 0 is 'word_offsets' of type uint*; the kernel's parameter is 'words' "
         "of type uint*");
-    EXPECT_NE(error("kernel void probe(global float* word_offsets, global uint* words, float x) {}")
+    EXPECT_NE(error(with("global float* word_offsets", "global uint* words, float x"))
                   .find("the kernel's parameter is 'word_offsets' of type float*"),
               std::string::npos);
-    EXPECT_NE(error("kernel void probe(global uint* word_offsets, global uint* words, uint x) {}")
-                  .find("argument 2 is '' of type float"),
+    EXPECT_NE(error(with("global uint* word_offsets", "global uint* words, uint x"))
+                  .find("argument 3 is '' of type float"),
               std::string::npos);
     Gpu unchecked = gpu;
     unchecked.checks_arguments = false;
-    EXPECT_EQ(
-        error_of_launch(unchecked, "kernel void probe(global uint* a, global float* b, uint x) {}"),
-        "");
+    EXPECT_EQ(error_of_launch(unchecked, with("global uint* a", "global float* b, uint x")), "");
 }
 
 TEST(Arguments, TypesHaveTheNamesOfKernels) {

@@ -2,6 +2,7 @@
 #include "host/stages/shadows/cast_shadows.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace kilolux {
 namespace {
@@ -54,12 +55,21 @@ ShadowWords CastShadows::reserve(const PreparedLights& lights, const ActiveClust
     const uint tiles = clusters.tile_count;
     reserve_.enqueue(items(tiles, tuning_.light_group), timer, tiles, lights.directional_count,
                      slots, clusters, words_.counts(tiles));
-    ShadowWords out;
-    out.offsets = words_.enqueue_offsets(tiles, timer);
+    const DeviceArray<uint> offsets = words_.enqueue_offsets(tiles, timer);
+    if (std::exchange(has_fitted_, false)) {
+        words_.start_read(timer);
+    } else {
+        word_count_ = words_.read_total();
+        words_.fits(word_count_);
+    }
+    return {offsets, words_.capacity(), words_.entries<uint>()};
+}
+
+bool CastShadows::fits() {
+    if (has_fitted_) return true;
     word_count_ = words_.read_total();
-    words_.fits(word_count_);
-    out.words = words_.entries<uint>();
-    return out;
+    has_fitted_ = word_count_ <= words_.capacity();
+    return has_fitted_;
 }
 
 // The work size of the kernel that casts.

@@ -89,20 +89,20 @@ void KeepShadows::forget() {
     copies_.reset();
 }
 
-DeviceArray<uint> KeepShadows::enqueue(const LitPixels& lit, const CountedWords& words,
+DeviceArray<uint> KeepShadows::enqueue(const LitPixels& lit, const ShadowWords& words,
                                        StageTimer& timer) {
     const bool is_same = before_ && gbuffer_version_ != 0 &&
                          gbuffer_version_ == lit.gbuffer.version &&
                          std::memcmp(&grid_, &lit.clusters.grid, sizeof grid_) == 0;
-    if (!is_same || words.count == 0) return {};
-    const std::size_t size = (words.count + 31) / 32;
+    if (!is_same) return {};
+    const std::size_t size = (words.capacity + std::size_t{31}) / 32;
     const DeviceArray<uint> kept = kept_.reserve(size);
     cl::Event cleared;
     gpu_.queue.enqueueFillBuffer(kept.buffer(), cl_uint{0}, 0, size * sizeof(uint), nullptr,
                                  &cleared);
     timer.record(stage_, cleared);
     kernel_->enqueue(items(std::size_t{lit.clusters.tile_count} * kItems, tuning_.light_group),
-                     timer, lit, words.shadows, *before_, lit.lights.index_before, kept);
+                     timer, lit, words, *before_, lit.lights.index_before, kept);
     return kept;
 }
 

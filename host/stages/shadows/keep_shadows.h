@@ -61,7 +61,7 @@ class KeepShadows {
     /// Fills in the words of lights that have the positions and ranges of the saved frame, and
     /// returns which these are: ShadowTargets::kept. Without a saved frame of the same pixels and
     /// grid: none. Valid until the next call. Enqueues only.
-    DeviceArray<uint> enqueue(const LitPixels& lit, const CountedWords& words, StageTimer& timer);
+    DeviceArray<uint> enqueue(const LitPixels& lit, const ShadowWords& words, StageTimer& timer);
 
  private:
     struct Copies {

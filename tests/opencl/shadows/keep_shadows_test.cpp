@@ -73,7 +73,7 @@ class KeptFrame {
         const LitPixels lit = lists.at(gbuffer_);
         gpu_.queue.enqueueFillBuffer(to.words.words.buffer(), cl_uint{0}, 0,
                                      cast.words() * sizeof(uint));
-        if (keeps) to.kept = keep_->enqueue(lit, {to.words, cast.words()}, timer);
+        if (keeps) to.kept = keep_->enqueue(lit, to.words, timer);
         cast.enqueue(input_, lit, to, timer);
         if (saves) keep_->save(lit, {to.words, cast.words()}, stages.counts(), timer);
         gpu_.queue.finish();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Exact shadows of lights that stand still over surfaces that stand still are not cast again.
+#include <algorithm>
 #include <random>
 
 #include "host/scene/lights/light_generator.h"
@@ -183,6 +184,28 @@ TEST(KeptShadows, GeneratedLightsCountToo) {
     EXPECT_LT(frame.stats.shadows.rays, wanted.stats.shadows.rays / 25);
     const Frame later = renderer.render(camera, 0.5);
     EXPECT_EQ(later.radiance, anew(scene, camera, settings, 0.5).radiance);
+}
+
+// Words without room are made again, in a frame with all of its stages.
+TEST(KeptShadows, MoreWordsThanEver) {
+    Scene scene = scene_with_points(30);
+    RenderSettings settings = kept_settings();
+    settings.width = settings.height = 128;
+    const Camera camera = first_camera(scene);
+    Renderer renderer(scene, settings);
+    const std::uint64_t few = renderer.render(camera, 0.0).stats.shadows.words;
+    scene = scene_with_points(1500);
+    const auto range = static_cast<float>(glm::length(bounds(scene).size()));
+    for (SceneLight& light : scene.lights) light.range = range;
+    ++scene.revisions.lights;
+    const Frame frame = renderer.render(camera, 0.0);
+    EXPECT_GT(frame.stats.shadows.words, std::max<std::uint64_t>(1u << 18, 2 * few));
+    const Frame wanted = anew(scene, camera, settings);
+    EXPECT_EQ(frame.radiance, wanted.radiance);
+    for (const char* stage : {"cull_lights", "refine_lights", "cast_shadows", "shade"}) {
+        const auto is_stage = [&](const StageTime& time) { return time.name == stage; };
+        EXPECT_EQ(std::ranges::count_if(frame.stats.stages, is_stage), 1) << stage;
+    }
 }
 
 // Lights that move, change, come and go beside generated ones; cameras and grids change, too.
