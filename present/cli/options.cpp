@@ -195,8 +195,8 @@ void visit_device(const SettingVisitor& f, RenderSettings& s) {
     OptionBuilder(f, "Device")
         .text({"--device", "NAME-OR-INDEX", "best",
                "OpenCL device; also all, or indices by commas: they share render's frames or rows, "
-               "and "
-               "the errors of report's settings, whose times are those of the first"},
+               "and the errors of report's settings, whose times are those of the first; 0,0: two "
+               "frames at once on device 0"},
               s.device)
         .rest()
         .value({"--max-memory", "SIZE|auto", "",

@@ -2,7 +2,6 @@
 #include "present/commands/devices/device_choice.h"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <optional>
 
 #include "host/base/error.h"
@@ -23,8 +22,6 @@ std::vector<std::string> indices_of(const std::string& choice) {
             throw UsageError(fmt::format("--device {}: '{}' is no index", choice, text));
         }
         out.push_back(fmt::to_string(*index));
-        if (std::ranges::count(out, out.back()) > 1)
-            throw UsageError(fmt::format("--device {}: {} is there twice", choice, out.back()));
     }
     return out;
 }

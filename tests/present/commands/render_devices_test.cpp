@@ -67,6 +67,19 @@ TEST_F(RenderDevices, MakeTheFilesOfOne) {
     }
 }
 
+TEST_F(RenderDevices, OneThatStandsTwiceMakesTwoFramesAtOnce) {
+    ASSERT_EQ(render(one_ / "f.#.png", "0").code, 0);
+    const ChildResult result = render(two_ / "f.#.png", "0,0", {"--stats", "-"});
+    ASSERT_EQ(result.code, 0) << result.err;
+    const auto devices = nlohmann::json::parse(result.out).at("devices");
+    ASSERT_EQ(devices.size(), 2u);
+    for (const auto& each : devices) EXPECT_EQ(each.at("index"), "0");
+    EXPECT_EQ(devices[0].at("pictures").get<int>() + devices[1].at("pictures").get<int>(), 7);
+    for (const std::string& name : names_in(one_)) {
+        EXPECT_EQ(text_of_file(two_ / name), text_of_file(one_ / name)) << name;
+    }
+}
+
 // One picture: its rows go to both devices.
 TEST_F(RenderDevices, MakeThePictureOfOne) {
     const std::vector<std::pair<const char*, std::vector<std::string>>> cases = {
@@ -290,9 +303,7 @@ TEST_F(RenderDevices, AreRefusedWhereTheyCannotShare) {
     const struct {
         std::string devices;
         const char* message;
-    } cases[] = {{"0,0", "--device 0,0: 0 is there twice"},
-                 {"0,7", "no device '7'"},
-                 {"0,", "--device 0,: '' is no index"}};
+    } cases[] = {{"0,7", "no device '7'"}, {"0,", "--device 0,: '' is no index"}};
     for (const auto& c : cases) {
         const ChildResult result = render(one_ / "f.y4m", c.devices);
         EXPECT_NE(result.code, 0);

@@ -96,9 +96,6 @@ TEST_F(ReportDevices, AreRefusedWhereThereAreNone) {
     const ChildResult none = report("0,7");
     EXPECT_EQ(none.code, 1) << none.err;
     EXPECT_TRUE(contains(none.err, "no device '7'")) << none.err;
-    const ChildResult twice = report("0,0");
-    EXPECT_EQ(twice.code, 2) << twice.err;
-    EXPECT_TRUE(contains(twice.err, "--device 0,0: 0 is there twice")) << twice.err;
 }
 
 }  // namespace
