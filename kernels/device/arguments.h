@@ -78,9 +78,8 @@
 #define SHADOW_ARGS ShadowView shadow, global const float *restrict origins, CASTER_ARGS
 
 // ShadowWords. word_offsets: [tiles + 1]; words: [word_capacity], see cast_shadows.h.
-#define WORD_ARGS(access)                                       \
-    global const uint *restrict word_offsets, uint word_capacity, \
-        global access uint *restrict words
+#define WORD_ARGS(access) \
+    global const uint *restrict word_offsets, uint word_capacity, global access uint *restrict words
 
 // ShadowTargets. kept: a bit for each word, set for the first word of a light in a cluster if its
 // words are there already; null: none are.

@@ -18,8 +18,9 @@
 #define light_slots(rays) 1u
 #endif
 
-// Whether a tile has words of shadow bits, and whether there is room for those of all tiles. Without
-// room nothing is cast or lit; the host makes room and repeats the frame. Offsets are modulo 2^32.
+// Whether a tile has words of shadow bits, and whether there is room for those of all tiles.
+// Without room nothing is cast or lit; the host makes room and repeats the frame. Offsets are
+// modulo 2^32.
 static inline bool has_words(global const uint* offsets, uint capacity, uint tile, uint tiles) {
     uint begin = offsets[tile], end = offsets[tile + 1];
     return begin < end && end <= capacity && offsets[tiles] <= capacity;
