@@ -37,9 +37,10 @@
 //   [1] the caller's own planes, or what RepackGBuffer made
 //   [2] the caller's own rows, or what MoveLights made
 //
-// QUEUES AND EVENTS. The queue is in order, with profiling; Gpu refuses another. enqueue() does not
-// block, but for shadows. DeferredLighting::fits() waits for the counts of the lists: all that was
-// enqueued before is done when it returns. Where it is false, lists lacked room: what was enqueued
+// QUEUES AND EVENTS. The queue is in order, with profiling; Gpu refuses another. enqueue()
+// blocks only for the first shadows and in a repeat. DeferredLighting::fits() waits for the counts
+// of the lists: all that was enqueued before is done when it returns. Where it is false, lists or
+// words of shadows lacked room: what was enqueued
 // since enqueue() does not count, and all of it is enqueued again. light() does both until they
 // fit. upload(), download(), MoveLights::stage() and StageTimer::take()
 // block, too; MoveLights::upload() does not.

@@ -44,10 +44,7 @@ void DeferredLighting::forget() {
 }
 
 bool DeferredLighting::fits(StageTimer& timer) {
-    if (!light_lists_.fits(timer)) return false;
-    if (!visibility_ || visibility_->fits()) return true;
-    light_lists_.forget();  // so that the next frame has all stages
-    return false;
+    return light_lists_.fits(timer) && (!visibility_ || visibility_->fits(light_lists_));
 }
 
 Radiance DeferredLighting::light(const LightingInput& input, StageTimer& timer) {

@@ -37,12 +37,12 @@ class DeferredLighting {
     DeferredLighting(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
                      const SurfaceFeatures& surfaces = {});
 
-    /// Radiance of every pixel; 0 for background. Blocks only for the first shadows, see
-    /// Visibility. Valid until the next call. Throws Error as the stages do.
+    /// Radiance of every pixel; 0 for background. Blocks only for the first shadows and in a
+    /// repeat, see Visibility. Valid until the next call. Throws Error as the stages do.
     Radiance enqueue(const LightingInput& input, StageTimer& timer);
 
-    /// False where the lists or shadows of the last enqueue() had no room: its results are invalid,
-    /// and the next one makes room. Waits for the device.
+    /// False where lists or shadows of the last enqueue() had no room: its results are invalid, and
+    /// the next one makes room. Waits for the device. Asked once a frame.
     bool fits(StageTimer& timer);
 
     /// Repeats both until the lists fit; the timer gets the stages of the last time. Blocks.

@@ -57,9 +57,10 @@ void Visibility::save_last(const LightLists& lists, const LightInput& lights,
     is_saved_next_ = true;
 }
 
-bool Visibility::fits() {
+bool Visibility::fits(LightLists& lists) {
     if (!source_ || cast_.fits()) return true;
     forget();
+    lists.forget();
     return false;
 }
 

@@ -34,14 +34,15 @@ class Visibility {
                    StageTimer& timer);
 
     /// Casts the rays, but those of save_last(). Returns the last result while the version of the
-    /// lists stays and the rays are picked alike. Blocks only where fits() did not say that there
-    /// is room; see CastShadows::reserve(). Valid until the next call.
+    /// lists stays and the rays are picked alike. Blocks for the number of words, unless fits()
+    /// was true for the last result. Valid until the next call.
     SeenLights enqueue(const ListedLights& lists, const GBuffer& gbuffer,
                        const ShadowInput& shadows, StageTimer& timer);
 
-    /// Once the lists of the last enqueue() are complete: false where its result had no room and is
-    /// not valid; the next one makes it. Waits for the number of words.
-    bool fits();
+    /// False where the last result, for the complete `lists`, had no room: it is not valid, the
+    /// next call makes room, and `lists` are made again, so that the next frame has all stages.
+    /// Waits for the number of words. Asked once a frame.
+    bool fits(LightLists& lists);
 
     /// Releases the last results.
     void forget();

@@ -96,10 +96,7 @@ void FrameStages::count(Measured out) {
 Room FrameStages::room(const LitBand& band, Measured out) {
     Room out_room;
     out_room.lists = lists_ ? lists_->fits(out.timer) : has_coarse_;
-    if (visibility_ && out_room.lists && !visibility_->fits()) {
-        lists_->forget();  // so that the next sample has all stages
-        out_room.lists = false;
-    }
+    if (visibility_ && out_room.lists) out_room.lists = visibility_->fits(*lists_);
     out_room.surfaces = forward_ || surfaces_->fits(out.stats);
     if (layers_) {
         const bool surfaces = layers_->surfaces_fit(), lists = layers_->lists_fit(out.timer);

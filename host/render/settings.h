@@ -135,6 +135,7 @@ struct RenderSettings {
     std::uint64_t max_memory_bytes =
         0;                  // that renderers may take in all; 0: most of what is available
     int memory_shares = 1;  // renderers that take equal parts of it
+    int device_shares = 1;  // of those, renderers on the same device
     int band_rows = 0;      // made at once at most, a multiple of FINE_TILE; 0: what memory allows
     std::string device;     // name, part of it, or index; empty: the best
     // That device, open: renderers that share it build a program once. None: each opens its own.

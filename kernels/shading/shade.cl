@@ -57,8 +57,8 @@ static inline LightSum source_sum(LightSource from, GBuffer g, ItemPlace at, Lit
 #endif
     LightSum sum = parallel;
 #if SHADOWS || MARK_CANDIDATES
-    wanted = wanted &&
-             has_words(from.word_offsets, from.word_capacity, at.tile, fine_tile_count(g.view));
+    wanted = wanted && has_usable_words(from.word_offsets, from.word_capacity, at.tile,
+                                        fine_tile_count(g.view));
 #endif
     FOR_EACH_CLUSTER(i, from.clusters, at.tile) {
         global const ActiveCluster* cluster = from.clusters.clusters + i;

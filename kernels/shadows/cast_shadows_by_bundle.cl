@@ -47,7 +47,7 @@ kernel void cast_shadows(
     global ShadowCounts* restrict counts) {  // out [work-items] with COUNT_SHADOWS, where the tile
                                              // has lights
     ItemPlace at = place_in_planes(view);
-    if (!at.inside || !HAS_WORDS(at.tile)) return;
+    if (!at.inside || !HAS_USABLE_WORDS(at.tile)) return;
     uint place = place_of_item(at.x, at.y);
     Clusters active = CLUSTERS_OF_ARGS;
     CastLights from = CAST_LIGHTS_OF_ARGS;

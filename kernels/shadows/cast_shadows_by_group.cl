@@ -329,7 +329,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cast_shadows(
     global const uint* restrict tiles) {   // of order_tiles
     local GroupWalk walk;
     uint tile = tiles[get_group_id(0) / SPLIT];
-    if (!HAS_WORDS(tile)) return;
+    if (!HAS_USABLE_WORDS(tile)) return;
     Clusters active = CLUSTERS_OF_ARGS;
     ClusterCast cast = {SHADOW_SCENE_OF_ARGS, CAST_LIGHTS_OF_ARGS};
     cast.key = key_of_tile(view, cast.from, tile);

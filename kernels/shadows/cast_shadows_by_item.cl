@@ -93,7 +93,7 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void cast_shadows(
     global ShadowCounts* restrict counts) {  // out [tiles] with COUNT_SHADOWS, where the tile has
                                              // lights
     uint tile = get_global_id(0);
-    if (!HAS_WORDS(tile)) return;
+    if (!HAS_USABLE_WORDS(tile)) return;
     ShadowScene scene = SHADOW_SCENE_OF_ARGS;
     Clusters active = CLUSTERS_OF_ARGS;
     ShadowPoints points;

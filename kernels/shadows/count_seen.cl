@@ -49,7 +49,6 @@ kernel void count_seen(LIT_ARGS, WORD_ARGS(const),
     FV3 n = load_normal(g, item.pixels);
     SeenLights out = {(UV)(0u), (UV)(0u)};
     FOR_EACH_CLUSTER_OF(item, i, mine, active, at.tile) {
-        if (!HAS_WORDS(at.tile)) continue;
         ShadowBits bits =
             bits_of_cluster(words + word_offsets[at.tile], clusters + i, place_of_item(at.x, at.y));
         SeenLights sum = count_directional(n, directional_lights, directional_count, bits);

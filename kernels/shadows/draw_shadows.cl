@@ -37,7 +37,7 @@ static inline void put_slots(ShadowBits bits, uint first, MASK mine, FV pairs, g
 
 kernel void draw_shadows(LIT_ARGS, WORD_ARGS(), SAMPLE_ARGS) {
     BEGIN_ORDERED_ITEM;
-    if (!HAS_WORDS(at.tile)) return;
+    if (!HAS_USABLE_WORDS(at.tile)) return;
     Surface s = load_surface(g, item.pixels, item.z);
     ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
     ShadowPick pick = make_pick(s, p, SAMPLES_OF_ARGS, view, item.pixels, at);

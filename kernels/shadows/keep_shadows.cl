@@ -57,7 +57,7 @@ kernel void keep_shadows(LIT_ARGS, WORD_ARGS(), BEFORE_ARGS,
                          global uint* restrict kept) {              // in/out: see TARGET_ARGS
     uint tile = get_global_id(0) / KEEP_ITEMS;
     uint item = get_global_id(0) % KEEP_ITEMS;
-    if (tile >= fine_tile_count(view) || !HAS_WORDS(tile)) return;
+    if (tile >= fine_tile_count(view) || !HAS_USABLE_WORDS(tile)) return;
     LightsBefore before = {bounds_before, count_before, directional_before,
                            directional_count_before, lists_before};
     Clusters active = CLUSTERS_OF_ARGS;

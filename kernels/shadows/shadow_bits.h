@@ -18,15 +18,17 @@
 #define light_slots(rays) 1u
 #endif
 
-// Whether a tile has words of shadow bits, and whether there is room for those of all tiles.
-// Without room nothing is cast or lit; the host makes room and repeats the frame. Offsets are
-// modulo 2^32.
-static inline bool has_words(global const uint* offsets, uint capacity, uint tile, uint tiles) {
+// Whether a tile has words, and there is room for the words of all tiles; else the host makes room
+// and repeats the frame. Offsets are modulo 2^32: of more words some tiles may have room, and the
+// host refuses the frame.
+static inline bool has_usable_words(global const uint* offsets, uint capacity, uint tile,
+                                    uint tiles) {
     uint begin = offsets[tile], end = offsets[tile + 1];
     return begin < end && end <= capacity && offsets[tiles] <= capacity;
 }
-// Of a kernel with WORD_ARGS and a view.
-#define HAS_WORDS(tile) has_words(word_offsets, word_capacity, tile, fine_tile_count(view))
+// In a kernel with WORD_ARGS and a view.
+#define HAS_USABLE_WORDS(tile) \
+    has_usable_words(word_offsets, word_capacity, tile, fine_tile_count(view))
 
 // Words for each light of a cluster whose pixels are first .. end - 1 in the tile's order.
 static inline uint shadow_words(uint first, uint end) { return (end + 31u) / 32u - first / 32u; }

@@ -59,15 +59,18 @@ kernel void tail_variance(LIT_ARGS, WORD_ARGS(const), SAMPLE_ARGS,
     pick.point = p;
     pick.surface.emissive = zero3();
     LightExtras extras = EXTRAS_OF_ARGS;
+    bool is_lit = true;
+#if SHADOWS
+    is_lit = HAS_USABLE_WORDS(at.tile);
+#endif
     FV sum = fv(0.0f);
     FOR_EACH_CLUSTER_OF(item, i, mine, active, at.tile) {
         ShadowBits bits;
 #if SHADOWS
-        if (!HAS_WORDS(at.tile)) continue;
         bits =
             bits_of_cluster(words + word_offsets[at.tile], clusters + i, place_of_item(at.x, at.y));
 #endif
-        for (uint j = 0; j < clusters[i].list_count; ++j) {
+        for (uint j = 0; is_lit && j < clusters[i].list_count; ++j) {
             uint index = lists[clusters[i].list_begin + j];
             ShadeLight light = LIGHT_AT(lights, index);
             if (!has_random_range(light)) continue;

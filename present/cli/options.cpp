@@ -27,8 +27,8 @@ void check_reflections(const SharedOptions& options) {
 // A new member does not compile here: add a row below, then its name. Members without a row are set
 // elsewhere: by the renderer (opened, background, reflections), by tests (force_features,
 // band_rows, kernels.chunks, kernels.group_height), by the scene (groups), by mixed_generated()
-// (lights.gain), and by the window and the commands (grid.fine_per_octave, memory_shares and the
-// rest of want).
+// (lights.gain), and by the window and the commands (grid.fine_per_octave, memory_shares,
+// device_shares and the rest of want).
 void count_members(SharedOptions& options) {
     [[maybe_unused]] auto& [scene, load, settings, rig, emissive_lights, light_groups,
                             no_light_layers, takes_light_layers, environment, background,
@@ -43,8 +43,8 @@ void count_members(SharedOptions& options) {
                             gbuffer, geometry, anisotropy, no_reuse, shading, shadows,
                             opaque_shadows, shadow_rays, ambient, backdrop, mirrored, bloom,
                             exposure, tone_curve, samples, auto_samples, want, groups, mix, grid,
-                            kernels, force_features, max_memory_bytes, memory_shares, band_rows,
-                            device, opened] = settings;
+                            kernels, force_features, max_memory_bytes, memory_shares, device_shares,
+                            band_rows, device, opened] = settings;
     [[maybe_unused]] auto& [count, light_seed, radius, intensity, size, box, gain] = lights;
     [[maybe_unused]] auto& [on, error, most] = auto_samples;
     [[maybe_unused]] auto& [display, radiance, shown_light, counts, shadow_counts, view, aovs,
@@ -196,7 +196,7 @@ void visit_device(const SettingVisitor& f, RenderSettings& s) {
         .text({"--device", "NAME-OR-INDEX", "best",
                "OpenCL device; also all, or indices by commas: they share render's frames or rows, "
                "and the errors of report's settings, whose times are those of the first; 0,0: two "
-               "frames at once on device 0"},
+               "frames of a sequence at once on device 0"},
               s.device)
         .rest()
         .value({"--max-memory", "SIZE|auto", "",

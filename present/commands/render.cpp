@@ -197,7 +197,9 @@ void run_render(RenderOptions& options) {
     if (begin == tasks.size()) return note("nothing to render: every file is there");
     const PictureTask first = tasks[begin];
     check_files(options, tasks, first);
-    share_memory(options.shared.settings, 1 + more_devices.size());
+    std::vector<std::string> devices = more_devices;
+    devices.push_back(options.shared.settings.device);
+    share_memory(options.shared.settings, devices);
     check_light_memory(options.shared.lights_given ? options.shared.settings.lights.count : 0,
                        options.shared.settings);
     warn_of_linear_light(options);

@@ -187,9 +187,15 @@ TEST(MemoryPlan, RenderersShareTheMemory) {
     const MemoryPlan share = made();
     EXPECT_EQ(share.device_bytes, half.device_bytes);
     EXPECT_EQ(share.held_bytes, half.held_bytes);
+    DeviceInfo gpu = cpu();
+    gpu.is_cpu = false;
+    gpu.memory_bytes = std::uint64_t{8} << 30;
+    settings.device_shares = 2;
+    const ScenePlan plan = make_scene_plan(scene, settings, 100);
+    EXPECT_EQ(plan_memory(scene, settings, plan, gpu).device_bytes, gpu.memory_bytes / 2);
     settings.memory_shares = 8;
     const std::string refused = message_of<Error>(made);
-    EXPECT_TRUE(refused.ends_with(" MiB; 8 devices share 1024 MiB (--max-memory)")) << refused;
+    EXPECT_TRUE(refused.ends_with(" MiB; 8 renderers share 1024 MiB (--max-memory)")) << refused;
 }
 
 TEST(MemoryPlan, TheMessageCountsTheScenesOwnLightsToo) {

@@ -66,7 +66,7 @@ Bytes whole_limit(const RenderSettings& settings) {
 std::string limit_text(const RenderSettings& settings) {
     const std::string whole = mebibytes(whole_limit(settings));
     if (settings.memory_shares > 1) {
-        return fmt::format("{} devices share {} (--max-memory)", settings.memory_shares, whole);
+        return fmt::format("{} renderers share {} (--max-memory)", settings.memory_shares, whole);
     }
     return settings.max_memory_bytes > 0 ? "--max-memory is " + whole
                                          : "there are " + whole + " to use (--max-memory)";
@@ -290,8 +290,9 @@ MemoryPlan plan_memory(const Scene& scene, const RenderSettings& settings, const
     out.held_bytes = (limit - out.bytes) / kHeldShare;
     // A CPU's buffers share the host's memory: lights and bands get what is planned, lists the
     // rest.
-    out.device_bytes =
-        device.is_cpu ? limit - out.held_bytes - fixed + need.device_fixed : device.memory_bytes;
+    out.device_bytes = device.is_cpu
+                           ? limit - out.held_bytes - fixed + need.device_fixed
+                           : device.memory_bytes / static_cast<Bytes>(settings.device_shares);
     return out;
 }
 

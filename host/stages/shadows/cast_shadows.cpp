@@ -56,20 +56,20 @@ ShadowWords CastShadows::reserve(const PreparedLights& lights, const ActiveClust
     reserve_.enqueue(items(tiles, tuning_.light_group), timer, tiles, lights.directional_count,
                      slots, clusters, words_.counts(tiles));
     const DeviceArray<uint> offsets = words_.enqueue_offsets(tiles, timer);
-    if (std::exchange(has_fitted_, false)) {
-        words_.start_read(timer);
-    } else {
+    is_counted_ = !std::exchange(may_skip_wait_, false);
+    if (is_counted_) {
         word_count_ = words_.read_total();
         words_.fits(word_count_);
+    } else {
+        words_.start_read(timer);
     }
     return {offsets, words_.capacity(), words_.entries<uint>()};
 }
 
 bool CastShadows::fits() {
-    if (has_fitted_) return true;
-    word_count_ = words_.read_total();
-    has_fitted_ = word_count_ <= words_.capacity();
-    return has_fitted_;
+    if (!std::exchange(is_counted_, true)) word_count_ = words_.read_total();
+    may_skip_wait_ = word_count_ <= words_.capacity();
+    return may_skip_wait_;
 }
 
 // The work size of the kernel that casts.

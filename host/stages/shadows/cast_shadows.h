@@ -24,11 +24,11 @@ class CastShadows {
     CastShadows(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
                 const SurfaceFeatures& surfaces, bool counts = false);
 
-    /// Makes room for the words, and sets first_pixel and first_word of the clusters. After fits()
-    /// it works with the room of the last frame and blocks nothing; else it blocks for the number
-    /// of words, and throws Error when the device cannot hold them. Valid until the next call.
-    /// `slots`: of each light of a list; 1, or slots_of_light() of kernels/shared/shadow.h for
-    /// sampled shadows in scenes with area lights.
+    /// Makes room for the words, and sets first_pixel and first_word of the clusters. If fits() was
+    /// true since the last call, it uses the room that there is and does not block; else it blocks
+    /// for the number of words, and throws Error when the device cannot hold them. Valid until the
+    /// next call. `slots`: of each light of a list; 1, or slots_of_light() of
+    /// kernels/shared/shadow.h for sampled shadows in scenes with area lights.
     ShadowWords reserve(const PreparedLights& lights, const ActiveClusters& clusters,
                         StageTimer& timer, uint slots = 1);
 
@@ -42,7 +42,7 @@ class CastShadows {
     /// next one makes it. Waits for the number of words.
     bool fits();
 
-    /// Words of 32 bits of the last reserve() that blocked, or of the last fits().
+    /// Words of 32 bits of the last reserve(); where it did not block, known from fits() on.
     std::uint64_t words() const { return word_count_; }
 
     /// What the last enqueue() counted; without words. Blocks.
@@ -59,7 +59,8 @@ class CastShadows {
     Kernel reserve_, cast_;
     CountedList words_;
     std::uint64_t word_count_ = 0;
-    bool has_fitted_ = false;            // the last reserve() had room
+    bool is_counted_ = false;            // word_count_ is that of the last reserve()
+    bool may_skip_wait_ = false;         // the next reserve() may
     GrowingArray<ShadowCounts> counts_;  // of work-items or groups
     std::optional<OrderTiles> order_;    // in which work-groups take them
 };

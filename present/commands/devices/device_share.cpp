@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <thread>
 #include <utility>
 
@@ -22,10 +23,14 @@ std::vector<DeviceShare> shares_of(const std::vector<std::string>& devices) {
     return out;
 }
 
-void share_memory(RenderSettings& settings, std::size_t devices) {
-    if (devices < 2) return;
+void share_memory(RenderSettings& settings, const std::vector<std::string>& devices) {
+    if (devices.size() < 2) return;
     settings.max_memory_bytes = memory_limit(settings);
-    settings.memory_shares = static_cast<int>(devices);
+    settings.memory_shares = static_cast<int>(devices.size());
+    for (const std::string& device : devices) {
+        const auto same = static_cast<int>(std::ranges::count(devices, device));
+        settings.device_shares = std::max(settings.device_shares, same);
+    }
 }
 
 std::string share_lines(const std::vector<DeviceShare>& shares) {

@@ -35,8 +35,9 @@ std::string device_text(const DeviceShare& share);
 /// The shares of the devices with these indices; they have done nothing.
 std::vector<DeviceShare> shares_of(const std::vector<std::string>& devices);
 
-/// Gives each of `devices` renderers that work at once an equal part of the memory for all.
-void share_memory(RenderSettings& settings, std::size_t devices);
+/// Gives renderers that work at once, one for each of `devices`, equal parts of the host's memory
+/// and of a device's that stands there several times.
+void share_memory(RenderSettings& settings, const std::vector<std::string>& devices);
 
 /// "device 0 (its name): 540 rows in 12.3 ms" or "7 pictures", a line a device.
 std::string share_lines(const std::vector<DeviceShare>& shares);

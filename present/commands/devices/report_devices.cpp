@@ -24,7 +24,7 @@ struct Comparing {
     const ReportJob& job;
     SharedTasks queue{0, job.settings.size(), job.settings.size()};
     std::vector<ComparedRow> rows = std::vector<ComparedRow>(job.settings.size());
-    RenderSettings memory{};  // max_memory_bytes and memory_shares, while all compare
+    RenderSettings memory{};  // its members of memory, while all compare
 };
 
 ComparedRow compared_row(const Comparing& all, const ReportSetting& asked,
@@ -32,6 +32,7 @@ ComparedRow compared_row(const Comparing& all, const ReportSetting& asked,
     ReportSetting setting = asked;
     setting.settings.max_memory_bytes = all.memory.max_memory_bytes;
     setting.settings.memory_shares = all.memory.memory_shares;
+    setting.settings.device_shares = all.memory.device_shares;
     ComparedRow row = all.run.compare(setting, device);
     row.row.setting = asked;  // one device alone measures its time
     return row;
@@ -52,12 +53,18 @@ void compare_settings(Comparing& all, const ReportDevice& device, DeviceShare& s
     }
 }
 
+std::vector<std::string> indices_of(const std::vector<DeviceShare>& shares) {
+    std::vector<std::string> out;
+    for (const DeviceShare& share : shares) out.push_back(share.index);
+    return out;
+}
+
 std::vector<ComparedRow> compare_on(std::vector<DeviceShare>& shares,
                                     std::atomic<std::size_t>& left, ReportRun& run,
                                     const ReportJob& job) {
     Comparing all{run, job};
     all.memory = job.settings.front().settings;
-    share_memory(all.memory, shares.size());
+    share_memory(all.memory, indices_of(shares));
     run_shares(shares, left, all.queue, [&](std::size_t i) {
         const ReportDevice device = i == 0 ? run.device() : opened_device(shares[i], job.view);
         compare_settings(all, device, shares[i]);

@@ -194,7 +194,9 @@ void ScriptPlayer::add_reach(const std::string& widget, int modifiers) {
         if (!reach(widget)) return false;
         const MoveEvent before = mouse_;
         move_to(place_of(widget).middle_x(), place_of(widget).middle_y());
-        return mouse_.x == before.x && mouse_.y == before.y;
+        if (mouse_.x == before.x && mouse_.y == before.y) return true;
+        if (++tries_ > kMaxTries) throw Error(place_ + ": '" + widget + "' does not stand still");
+        return false;
     });
     if (modifiers == 0) return;
     actions_.push_back([this, modifiers] {

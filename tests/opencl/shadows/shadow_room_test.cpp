@@ -9,7 +9,6 @@
 #include <optional>
 
 #include "host/lighting/deferred_lighting.h"
-#include "host/stages/shadows/count_seen.h"
 #include "host/stages/shadows/draw_shadows.h"
 #include "kernels/shared/evaluate_modes.h"
 #include "tests/opencl/shadows/casters.h"
@@ -69,8 +68,9 @@ void expect_untouched(int lanes, int group, bool sampled) {
     const Shadowed from(gpu, shadow_features(sampled), 32);
     StageTimer timer;
     LightLists stages(gpu, tuning, from.features);
-    const LitPixels lit =
-        stages.run(from.lights(20), from.gbuffer, from.grid, timer).at(from.gbuffer);
+    GBuffer gbuffer = from.gbuffer;
+    gbuffer.version = 1;  // so that shadows may be kept
+    const LitPixels lit = stages.run(from.lights(20), gbuffer, from.grid, timer).at(gbuffer);
     CastShadows cast(gpu, tuning, from.features, {});
     const ShadowWords words = cast.reserve(lit.lights, lit.clusters, timer);
     ASSERT_GT(cast.words(), 100u);
@@ -86,8 +86,10 @@ void expect_untouched(int lanes, int group, bool sampled) {
         DrawShadows draw(gpu, tuning, from.features);
         draw.enqueue(lit, few, samples, timer);
     } else {
-        CountSeen count(gpu, tuning, from.features);
-        count.enqueue(lit, few, timer);
+        KeepShadows keep(gpu, tuning, from.features, "keep");
+        keep.save(lit, {words, cast.words()}, stages.counts(), timer);
+        const DeviceArray<uint> kept = keep.enqueue(lit, few, timer);
+        for (const uint bits : download(gpu, kept)) EXPECT_EQ(bits, 0u);
     }
     cast.enqueue(from.shadows, lit, {few}, timer, samples);
     EXPECT_EQ(download(gpu, few.words, before.size()), before);

@@ -296,7 +296,7 @@ TEST_F(RenderDevices, HaveRoomForTheLightsEach) {
     EXPECT_EQ(two.code, 1);
     EXPECT_TRUE(contains(two.err, "memory: the program and 1000000 generated lights need"))
         << two.err;
-    EXPECT_TRUE(contains(two.err, "; 2 devices share 900 MiB (--max-memory)")) << two.err;
+    EXPECT_TRUE(contains(two.err, "; 2 renderers share 900 MiB (--max-memory)")) << two.err;
 }
 
 TEST_F(RenderDevices, AreRefusedWhereTheyCannotShare) {

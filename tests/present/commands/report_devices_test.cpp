@@ -89,7 +89,7 @@ TEST_F(ReportDevices, HaveTheMemoryOfOne) {
     EXPECT_EQ(one.code, 0) << one.err;
     const ChildResult two = report("0,1", memory);
     EXPECT_EQ(two.code, 1) << two.out;
-    EXPECT_TRUE(contains(two.err, "; 2 devices share 500 MiB (--max-memory)")) << two.err;
+    EXPECT_TRUE(contains(two.err, "; 2 renderers share 500 MiB (--max-memory)")) << two.err;
 }
 
 TEST_F(ReportDevices, AreRefusedWhereThereAreNone) {
