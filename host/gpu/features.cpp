@@ -71,7 +71,7 @@ Tuning default_tuning(const DeviceInfo& device) {
     tuning.raster_group = group_of(256, device, kLeastShared);
     tuning.raster_tile_width = 32;
     tuning.raster_tile_height = 16;
-    tuning.shadow_group = group_of(64, device, kLeastShared);
+    tuning.shadow_group = group_of(32, device, kLeastShared);
     return tuning;
 }
 

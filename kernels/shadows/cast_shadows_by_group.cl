@@ -1,27 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
-// cast_shadows by a work-group for every SPLIT-th light of a tile: the items test the children of
-// GROUP / SHADOW_WIDTH nodes at a time, an item a child; then triangles, an item each; then those
-// of the points that face the light, an item a few. For GPUs; one pixel a lane. The order in which
+// cast_shadows by work-groups. Several have the same tile and share its lights. In a step the items
+// of a group test the children of GROUP / SHADOW_WIDTH nodes, an item a child; or they set up GROUP
+// triangles, an item each, and test them on the points that face the light, an item POINTS_AT_ONCE.
+// For GPUs, fastest in groups of as many items as run in step; one pixel a lane. The order in which
 // items find triangles does not change the result.
 #define ORDERED_PIXELS 1
-#define SHADOW_POINTS (FINE_TILE_PIXELS / GROUP)
+#define SHADOW_POINTS 1
 #include "kernels/shadows/area_group.h"
 #include "kernels/shadows/shadow_group.h"
 
-// Place in the tile's order of the item's k-th point of a cluster whose first pixel is `first`.
-static inline uint place_of_point(uint first, uint k) { return first + k * GROUP + this_item(); }
+// Points that an item tests at once, on forms that it loads once.
+#define POINTS_AT_ONCE 2u
 
-// The item's points of a cluster.
-static inline void load_points_of_item(View view, global const float* origins, uint tile,
-                                       global const uchar* order, uint first, uint end,
-                                       ShadowPoints* points) {
-    points->row_count = (end - first + GROUP - 1u) / GROUP;
-#pragma unroll
-    for (uint k = 0; k < SHADOW_POINTS; ++k) {
-        uint place = min(place_of_point(first, k), end - 1u);
+// The points of a cluster, for the items to share.
+static inline void share_points(View view, global const float* origins, uint tile,
+                                global const uchar* order, uint first, uint end,
+                                local GroupWalk* walk) {
+    uint plane = view.stride * view.height;
+    barrier(CLK_LOCAL_MEM_FENCE);  // the last cluster is done
+    for (uint place = first + this_item(); place < end; place += GROUP) {
         Pixels pixels = pixels_of_tile(view, tile, place, order);
-        load_origins(points, k, origins, view.stride * view.height, pixels);
+        walk->x[place] = LOAD_PLANE(FV, origins + ORIGIN_X * plane, pixels);
+        walk->y[place] = LOAD_PLANE(FV, origins + ORIGIN_Y * plane, pixels);
+        walk->z[place] = LOAD_PLANE(FV, origins + ORIGIN_Z * plane, pixels);
+        walk->normal[place] = LOAD_PLANE(FV, origins + ORIGIN_NORMAL * plane, pixels);
     }
+}
+
+static inline FV3 point_at(local const GroupWalk* walk, uint place) {
+    return fv3(walk->x[place], walk->y[place], walk->z[place]);
+}
+
+// The i-th of the points that face the light; the last one, where there are fewer.
+static inline FV3 faced_point(local const GroupWalk* walk, uint i) {
+    return point_at(walk, walk->places[min(i, walk->faced - 1u)]);
 }
 
 static inline float4 float4_of(ShadowForm form) {
@@ -42,7 +54,9 @@ static inline void set_up_found(ShadowScene scene, ShadowLight light, Shaft shaf
     MASK sure;
     ShadowTriangles t = set_up_shadow(v, shared_light(light), scene.view.extent, &sure);
     if (!lane_any(sure & may_shade(shaft, &t))) return;
-    local float4* to = walk->forms[atomic_inc(&walk->tested)];
+    uint number = atomic_inc(&walk->tested);
+    if ((child & SHADOW_MASKED) != 0u) atomic_or(&walk->masked[number / 32u], 1u << number % 32u);
+    local float4* to = walk->forms[number];
     for (uint i = 0; i < 3; ++i) to[i] = float4_of(t.edge[i]);
     to[3] = float4_of(t.plane);
     to[4] = (float4)(t.unit[0], t.unit[1], t.unit[2], as_float(child));
@@ -52,76 +66,116 @@ static inline float form4_at(float4 f, FV3 x) {
     return fma(f.x, x.x, fma(f.y, x.y, fma(f.z, x.z, f.w)));
 }
 
-// Tests the triangles that are set up on the item's points; whether any is still lit.
-static inline bool shade_points(ShadowScene scene, ShadowLight light, local const GroupWalk* walk,
-                                ShadowPoints* points) {
-    MASK any = 0;
-#pragma unroll
-    for (uint k = 0; k < SHADOW_POINTS; ++k) {
-        if (k < points->row_count) any |= lit_of(points, k);
-    }
-    for (uint j = 0; lane_any(any) && j < walk->tested; ++j) {
-        local const float4* f = walk->forms[j];
-        float4 f0 = f[0], f1 = f[1], f2 = f[2], f3 = f[3];
-        any = 0;
-#pragma unroll
-        for (uint k = 0; k < SHADOW_POINTS; ++k) {
-            if (k >= points->row_count) continue;  // the same for all items
-            MASK lit = lit_of(points, k);
-            ADD_COUNT(points, points, lane_count(lit));
-            FV3 e = load_ray_ends(points, k);
-            FV u0 = form4_at(f0, e);
-            FV u1 = form4_at(f1, e);
-            FV u2 = form4_at(f2, e);
-            FV behind = form4_at(f3, load_points(points, k));
-            FV inside = min(min(u0, u1), u2);
-            MASK shaded = lane_mask(min(inside, behind) >= -1.0f) & lit;
-            // A ray that surely passes the triangle passes its box.
-            if (shaded && inside < 1.0f) {
-                FV3 v[3];
-                uint child = as_uint(f[4].w);
-                load_casters(scene, &child, v);
-                shaded = passes_box(shared_light(light), load_points(points, k), boxes_of(v));
-            }
-#if HAS_MASKED_CASTERS
-            if (shaded && (as_uint(f[4].w) & SHADOW_MASKED) != 0u) {
-                CasterWeights w = caster_weights(u0 * f[4].x, u1 * f[4].y, u2 * f[4].z);
-                shaded &= is_opaque_at(scene.masked, as_uint(f[4].w) & SHADOW_NUMBER, w);
-            }
-#endif
-            lit &= ~shaded;
-            points->lit[k] = as_float(lit);
-            any |= lit;
+// Whether one of the triangles first + i, i a bit of `bits`, hides a point: those for which the
+// forms alone do not say so.
+static inline bool is_hidden_by_any(ShadowScene scene, ShadowLight light,
+                                    local const GroupWalk* walk, uint first, uint bits, FV3 point) {
+    FV3 e = edge_point(light, point);
+    bool hidden = false;
+    for (; bits != 0u && !hidden; bits &= bits - 1u) {
+        local const float4* f = walk->forms[first + lowest_bit(bits)];
+        FV u0 = form4_at(f[0], e);
+        FV u1 = form4_at(f[1], e);
+        FV u2 = form4_at(f[2], e);
+        uint child = as_uint(f[4].w);
+        hidden = true;
+        // A ray that surely passes the triangle passes its box.
+        if (min(min(u0, u1), u2) < 1.0f) {
+            FV3 v[3];
+            load_casters(scene, &child, v);
+            hidden = passes_box(shared_light(light), point, boxes_of(v));
         }
+#if HAS_MASKED_CASTERS
+        if (hidden && (child & SHADOW_MASKED) != 0u) {
+            CasterWeights w = caster_weights(u0 * f[4].x, u1 * f[4].y, u2 * f[4].z);
+            hidden = is_opaque_at(scene.masked, child & SHADOW_NUMBER, w);
+        }
+#endif
     }
-    return lane_any(any);
+    return hidden;
 }
 
-// Tests what was found, GROUP triangles at a time.
-static inline void test_found(ShadowScene scene, ShadowLight light, Shaft shaft, uint count,
-                              local GroupWalk* walk, ShadowPoints* points) {
-    ADD_COUNT(points, triangles, count);
-    for (uint first = 0; first < count; first += GROUP) {
-        if (this_item() == 0u) {
-            walk->tested = 0u;
-            walk->lit = 0u;
-#if AREA_SHADOWS
-            walk->rays.pair_count[0] = 0u;
-#endif
-        }
-        barrier(CLK_LOCAL_MEM_FENCE);  // 0 before any adds to it
-        uint i = first + this_item();
-        if (i < count) set_up_found(scene, light, shaft, walk->found[i], walk);
-        barrier(CLK_LOCAL_MEM_FENCE);  // all are set up
-#if AREA_SHADOWS
-        bool lit = light.is_area ? shade_rays(scene, light, walk, points)
-                                 : shade_points(scene, light, walk, points);
-#else
-        bool lit = shade_points(scene, light, walk, points);
-#endif
-        if (lit) walk->lit = 1u;
-        barrier(CLK_LOCAL_MEM_FENCE);  // all have tested
+// Tests triangles `first` .. `end` - 1 of those that are set up, 32 at most, on the item's points
+// k, k + 1, ..., POINTS_AT_ONCE of them. Returns those of `lit`, a bit for each, that stay lit.
+// What is rare comes last and once, since it takes many registers.
+static inline uint lit_of_points(ShadowScene scene, ShadowLight light, local const GroupWalk* walk,
+                                 uint first, uint end, uint k, uint lit, ShadowPoints* counted) {
+    FV3 p[POINTS_AT_ONCE], e[POINTS_AT_ONCE];
+    uint unsure[POINTS_AT_ONCE];  // bits of triangles
+    uint masked = walk->masked[first / 32u];
+#pragma unroll
+    for (uint h = 0; h < POINTS_AT_ONCE; ++h) {
+        p[h] = faced_point(walk, (k + h) * GROUP + this_item());
+        e[h] = edge_point(light, p[h]);
+        unsure[h] = 0u;
     }
+    for (uint j = first; lit != 0u && j < end; ++j) {
+        ADD_COUNT(counted, points, popcount(lit));
+        local const float4* f = walk->forms[j];
+        float4 f0 = f[0], f1 = f[1], f2 = f[2], f3 = f[3];
+        bool may_have_holes = (masked >> j % 32u & 1u) != 0u;
+#pragma unroll
+        for (uint h = 0; h < POINTS_AT_ONCE; ++h) {
+            FV inside = min(min(form4_at(f0, e[h]), form4_at(f1, e[h])), form4_at(f2, e[h]));
+            if (!(min(inside, form4_at(f3, p[h])) >= -1.0f)) continue;
+            if (inside >= 1.0f && !may_have_holes) {
+                lit &= ~(1u << h);
+            } else {
+                unsure[h] |= 1u << j % 32u;
+            }
+        }
+    }
+#pragma unroll 1
+    for (uint h = 0; h < POINTS_AT_ONCE; ++h) {
+        uint bits = h == 0u ? unsure[0] : unsure[1];
+        if ((lit >> h & 1u) == 0u || bits == 0u) continue;
+        FV3 point = faced_point(walk, (k + h) * GROUP + this_item());
+        if (is_hidden_by_any(scene, light, walk, first, bits, point)) lit &= ~(1u << h);
+    }
+    return lit;
+}
+
+// Tests the triangles that are set up on the item's points: point k of an item is number k * GROUP
+// + this_item() of those that face the light. lit: in/out, a bit for each. Whether any stays lit.
+static inline bool shade_points(ShadowScene scene, ShadowLight light, local const GroupWalk* walk,
+                                uint* lit, ShadowPoints* counted) {
+    const uint all = (1u << POINTS_AT_ONCE) - 1u;
+    for (uint k = 0; k * GROUP < walk->faced; k += POINTS_AT_ONCE) {
+        uint mine = *lit >> k & all;
+        for (uint first = 0; mine != 0u && first < walk->tested; first += 32u) {
+            uint end = min(first + 32u, walk->tested);
+            mine = lit_of_points(scene, light, walk, first, end, k, mine, counted);
+        }
+        *lit = (*lit & ~(all << k)) | mine << k;
+    }
+    return *lit != 0u;
+}
+
+// Tests the last GROUP of the `count` triangles that were found, or all.
+static inline void test_found(ShadowScene scene, ShadowLight light, Shaft shaft, uint count,
+                              local GroupWalk* walk, uint* lit, ShadowPoints* counted) {
+    uint first = count > GROUP ? count - GROUP : 0u;
+    ADD_COUNT(counted, triangles, count - first);
+    if (this_item() == 0u) {
+        walk->count = first;
+        walk->tested = 0u;
+        walk->lit = 0u;
+        for (uint i = 0; i < GROUP / 32u; ++i) walk->masked[i] = 0u;
+#if AREA_SHADOWS
+        walk->rays.pair_count[0] = 0u;
+#endif
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);  // 0 before any adds to it
+    uint i = first + this_item();
+    if (i < count) set_up_found(scene, light, shaft, walk->found[i], walk);
+    barrier(CLK_LOCAL_MEM_FENCE);  // all are set up
+#if AREA_SHADOWS
+    bool any = light.is_area ? shade_rays(scene, light, walk, counted)
+                             : shade_points(scene, light, walk, lit, counted);
+#else
+    bool any = shade_points(scene, light, walk, lit, counted);
+#endif
+    if (any) walk->lit = 1u;
 }
 
 // The group's counts, of which all items have the same nodes, triangles and shafts.
@@ -142,26 +196,26 @@ static inline void store_counts(const ShadowPoints* points, local GroupWalk* wal
 #endif
 }
 
-// Clears the lit flag of each of the item's points that a triangle hides from the light.
+// Clears the bits of the item's points that a triangle hides from the light.
 static inline void cast_shadows_of_group(ShadowScene scene, ShadowLight light, Shaft shaft,
-                                         local GroupWalk* walk, ShadowPoints* points) {
-    bool goes_on = true;
+                                         local GroupWalk* walk, uint* lit, ShadowPoints* counted) {
+    GroupStack stack = {1u, 0u};
     bool begins = true;
-    while (goes_on) {
+    for (;;) {
         barrier(CLK_LOCAL_MEM_FENCE);  // stack and found are complete
-        uint top = walk->top;
+        uint top = stack_top(&stack, walk);
         uint count = walk->count;
-        goes_on = walk->lit != 0u && (top > 0u || count > 0u);
-        ADD_COUNT(points, shafts, begins && goes_on ? 1 : 0);
+        bool goes_on = walk->lit != 0u && (top > 0u || count > 0u);
+        ADD_COUNT(counted, shafts, begins && goes_on ? 1 : 0);
         begins = false;
-        barrier(CLK_LOCAL_MEM_FENCE);  // read by all before it changes
-        if (goes_on && (top == 0u || count > GROUP)) {
-            test_found(scene, light, shaft, count, walk, points);
-            if (this_item() == 0u) walk->count = 0u;
-        } else if (goes_on) {
+        if (!goes_on) break;  // for all items
+        if (top > 0u && count <= GROUP) {
             uint take = nodes_to_take(scene.view, top);
-            ADD_COUNT(points, nodes, take);
-            walk_nodes(scene, shaft, top, take, walk);
+            ADD_COUNT(counted, nodes, take);
+            walk_nodes(scene, shaft, top, take, &stack, walk);
+        } else {
+            barrier(CLK_LOCAL_MEM_FENCE);  // read by all before it changes
+            test_found(scene, light, shaft, count, walk, lit, counted);
         }
     }
 }
@@ -187,25 +241,20 @@ static inline void store_words(uint first, uint end, local GroupWalk* walk, glob
 // Gathers the points that face the light, about a third of a cluster's, so that all items are busy,
 // and their box.
 static inline void gather_faced(ClusterCast cast, ShadowLight light, global const uint* words,
-                                ShadowPoints* points, local GroupWalk* walk) {
+                                local GroupWalk* walk) {
     LaneBox box = no_box();
     bool any = false;
-#pragma unroll
-    for (uint k = 0; k < SHADOW_POINTS; ++k) {
-        if (k >= points->row_count) continue;
-        uint place = place_of_point(cast.first, k);
-        MASK mine = lane_mask(place < cast.end);
+    for (uint place = cast.first + this_item(); place < cast.end; place += GROUP) {
+        MASK mine = (MASK)(-1);
 #if PICKED_ONLY
-        mine &= lane_mask(place < cast.end &&
-                          (words[place / 32u - cast.first / 32u] >> place % 32u & 1u));
+        mine = lane_mask((words[place / 32u - cast.first / 32u] >> place % 32u & 1u) != 0u);
 #endif
-        MASK lit = face_light(cast.scene.view, points, k, light, mine);
-        if (!lane_any(lit)) continue;
-        FV3 p = load_points(points, k);
-        box = grown_box(box, lit, p);
-        uint i = atomic_inc(&walk->faced);
-        walk->places[i] = (uchar)place;
-        walk->x[i] = p.x, walk->y[i] = p.y, walk->z[i] = p.z;
+        ShadowPoints point;
+        FV3 p = point_at(walk, place), n = unpacked_normal(walk->normal[place]);
+        store_point(&point, 0u, p, n);
+        if (!lane_any(face_light(cast.scene.view, &point, 0u, light, mine))) continue;
+        box = grown_box(box, (MASK)(-1), p);
+        walk->places[atomic_inc(&walk->faced)] = (uchar)place;
         any = true;
     }
     if (any) {
@@ -214,40 +263,22 @@ static inline void gather_faced(ClusterCast cast, ShadowLight light, global cons
     }
 }
 
-// The item's gathered points, all of them lit; their number.
-static inline uint load_faced(ShadowLight light, local const GroupWalk* walk, ShadowPoints* to) {
-    uint count = 0u;
-    to->row_count = (walk->faced + GROUP - 1u) / GROUP;
-#pragma unroll
-    for (uint k = 0; k < SHADOW_POINTS; ++k) {
-        if (k >= to->row_count) continue;
-        uint i = place_of_point(0u, k);
-        uint from = min(i, walk->faced - 1u);
-        FV3 p = fv3(walk->x[from], walk->y[from], walk->z[from]);
-        FV3 e = edge_point(light, p);
-        to->x[k] = p.x, to->y[k] = p.y, to->z[k] = p.z;
-        to->ex[k] = e.x, to->ey[k] = e.y, to->ez[k] = e.z;
-        to->lit[k] = as_float(lane_mask(i < walk->faced));
-        if (i < walk->faced) ++count;
-    }
-    return count;
+// A bit for each of the item's gathered points.
+static inline uint bits_of_faced(local const GroupWalk* walk) {
+    uint count = (walk->faced + GROUP - 1u - this_item()) / GROUP;
+    return (1u << count) - 1u;
 }
 
-// Sets the flags of the item's points that are lit; their number.
-static inline uint flag_lit(const ShadowPoints* faced, local GroupWalk* walk) {
-    uint seen = 0u;
-#pragma unroll
-    for (uint k = 0; k < SHADOW_POINTS; ++k) {
-        if (k >= faced->row_count || !lane_any(lit_of(faced, k))) continue;
-        walk->flags[walk->places[place_of_point(0u, k)]] = 1u;
-        ++seen;
+// Sets the flags of the item's points that are lit.
+static inline void flag_lit(uint lit, local GroupWalk* walk) {
+    for (; lit != 0u; lit &= lit - 1u) {
+        walk->flags[walk->places[lowest_bit(lit) * GROUP + this_item()]] = 1u;
     }
-    return seen;
 }
 
 // One light's bits of one cluster.
 static inline void cast_light(ClusterCast cast, uint j, local GroupWalk* walk,
-                              ShadowPoints* points) {
+                              ShadowPoints* counted) {
     ShadowLight light = light_of_cast(cast, j);
 #if AREA_SHADOWS
     if (light.is_area) return;
@@ -258,15 +289,15 @@ static inline void cast_light(ClusterCast cast, uint j, local GroupWalk* walk,
     empty_box(&walk->box);
     for (uint i = cast.first + this_item(); i < cast.end; i += GROUP) walk->flags[i] = 0u;
     barrier(CLK_LOCAL_MEM_FENCE);  // empty before any adds to it
-    gather_faced(cast, light, words, points, walk);
+    gather_faced(cast, light, words, walk);
     barrier(CLK_LOCAL_MEM_FENCE);  // all are gathered
-    ShadowPoints faced;
-    reset_counts(&faced);
-    uint rays = load_faced(light, walk, &faced);
+    uint lit = bits_of_faced(walk);
+    uint rays = popcount(lit);
+    ulong tests_before = counted_tests(counted);
     Shaft shaft = make_shaft(light, box_end(walk->box.low), box_end(walk->box.high));
-    cast_shadows_of_group(cast.scene, light, shaft, walk, &faced);
-    count_rays(&faced, 0ul, rays, flag_lit(&faced, walk));
-    add_counts(points, &faced);
+    cast_shadows_of_group(cast.scene, light, shaft, walk, &lit, counted);
+    count_rays(counted, tests_before, rays, popcount(lit));
+    flag_lit(lit, walk);
     // All flags are set, and all have read the words.
     barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
     store_words(cast.first, cast.end, walk, words);
@@ -288,21 +319,23 @@ static inline bool cast_area_light(ClusterCast cast, uint j, AreaPixels pixels,
         light.area.low = box_end(walk->rays.targets_box.low);
         light.area.high = box_end(walk->rays.targets_box.high);
         Shaft shaft = make_shaft(light, box_end(walk->box.low), box_end(walk->box.high));
-        cast_shadows_of_group(cast.scene, light, shaft, walk, counted);
+        uint none = 0u;  // points: these are rays
+        cast_shadows_of_group(cast.scene, light, shaft, walk, &none, counted);
         count_rays(counted, tests_before, rays, put_seen(words, &walk->rays));
         goes_on = walk->rays.any_left != 0u;
     }
     return true;
 }
 
-// The bits of all lights with a size of one cluster; whether there are other lights.
-static inline bool cast_area_lights(ClusterCast cast, AreaPixels pixels, local GroupWalk* walk,
-                                    ShadowPoints* counted) {
+// The bits of the group's lights with a size of one cluster, from the start-th on; whether there
+// are other lights.
+static inline bool cast_area_lights(ClusterCast cast, uint start, AreaPixels pixels,
+                                    local GroupWalk* walk, ShadowPoints* counted) {
     bool others = false;
     uint count = count_of_cluster(cast.from, cast.cluster);
-    for (uint j = get_group_id(0) % SPLIT; j < count; j += 32u * SPLIT) {
+    for (uint j = start; j < count; j += 32u * cast.split) {
         for (uint bits = find_wanted(cast, j, walk); bits != 0u; bits &= bits - 1u) {
-            uint light = j + lowest_bit(bits) * SPLIT;
+            uint light = j + lowest_bit(bits) * cast.split;
             others |= !cast_area_light(cast, light, pixels, walk, counted);
         }
     }
@@ -310,32 +343,36 @@ static inline bool cast_area_lights(ClusterCast cast, AreaPixels pixels, local G
 }
 #endif
 
-// The bits of the lights without a size of one cluster.
-static inline void cast_lights(ClusterCast cast, local GroupWalk* walk, ShadowPoints* points) {
+// The bits of the group's lights without a size of one cluster, from the start-th on.
+static inline void cast_lights(ClusterCast cast, uint start, local GroupWalk* walk,
+                               ShadowPoints* counted) {
     uint count = count_of_cluster(cast.from, cast.cluster);
-    for (uint j = get_group_id(0) % SPLIT; j < count; j += 32u * SPLIT) {
-        uint left = (count - j + SPLIT - 1u) / SPLIT;
+    for (uint j = start; j < count; j += 32u * cast.split) {
+        uint left = (count - j + cast.split - 1u) / cast.split;
         uint bits = find_wanted(cast, j, walk) & (0xffffffffu >> (32u - min(left, 32u)));
         for (; bits != 0u; bits &= bits - 1u) {
-            cast_light(cast, j + lowest_bit(bits) * SPLIT, walk, points);
+            cast_light(cast, j + lowest_bit(bits) * cast.split, walk, counted);
         }
     }
 }
 
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cast_shadows(
     LIT_ARGS, SHADOW_ARGS, TARGET_ARGS, SAMPLE_ARGS,
-    global ShadowCounts* restrict counts,  // out [tiles * SPLIT] with COUNT_SHADOWS, where the
+    global ShadowCounts* restrict counts,  // out [tiles * split] with COUNT_SHADOWS, where the
                                            // tile has lights
     global const uint* restrict tiles) {   // of order_tiles
     local GroupWalk walk;
-    uint tile = tiles[get_group_id(0) / SPLIT];
+    uint split = get_num_groups(0) / fine_tile_count(view);
+    uint tile = tiles[get_group_id(0) / split];
     if (!HAS_USABLE_WORDS(tile)) return;
     Clusters active = CLUSTERS_OF_ARGS;
     ClusterCast cast = {SHADOW_SCENE_OF_ARGS, CAST_LIGHTS_OF_ARGS};
     cast.key = key_of_tile(view, cast.from, tile);
     cast.kept = kept;
-    ShadowPoints points;
-    reset_counts(&points);
+    cast.split = split;
+    ShadowPoints counted;
+    reset_counts(&counted);
+    uint start = get_group_id(0) % split;  // the group's first light of a cluster
     FOR_EACH_CLUSTER(i, active, tile) {
         cast.cluster = clusters + i;
         cast.first = clusters[i].first_pixel;
@@ -343,14 +380,20 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cast_shadows(
         cast.count = shadow_words(cast.first, cast.end);
         cast.words_begin = word_offsets[tile] + clusters[i].first_word;
         cast.words = words + cast.words_begin;
+        uint count = count_of_cluster(cast.from, cast.cluster);
+        bool others = start < count;
 #if AREA_SHADOWS
         AreaPixels pixels = {GBUFFER_OF_ARGS, origins, order, tile};
-        if (!cast_area_lights(cast, pixels, &walk, &points)) continue;
+        others = others && cast_area_lights(cast, start, pixels, &walk, &counted);
 #endif
-        load_points_of_item(view, origins, tile, order, cast.first, cast.end, &points);
-        cast_lights(cast, &walk, &points);
+        if (others) {
+            share_points(view, origins, tile, order, cast.first, cast.end, &walk);
+            cast_lights(cast, start, &walk, &counted);
+        }
+        // Groups take the lights of all clusters in turn.
+        start = (start + split - count % split) % split;
     }
 #if COUNT_SHADOWS
-    store_counts(&points, &walk, counts + get_group_id(0));
+    store_counts(&counted, &walk, counts + get_group_id(0));
 #endif
 }

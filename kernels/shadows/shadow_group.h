@@ -6,10 +6,6 @@
 #include "kernels/shadows/cast_shadows.h"
 #include "kernels/shadows/shadow_cast.h"
 
-// A work-group takes every SPLIT-th light of a tile; split_of() of the host.
-#ifndef SPLIT
-#define SPLIT 1
-#endif
 #define NODES_AT_ONCE (GROUP / SHADOW_WIDTH)
 // Most triangles that wait for their test.
 #define GROUP_FOUND (2 * GROUP)
@@ -20,8 +16,8 @@
 // their test.
 #define GROUP_RAYS 128u
 #define GROUP_PAIRS (4u * GROUP)
-#if GROUP > 512
-#error "GROUP must be at most 512: GroupRays numbers pairs by 16 bits"
+#if GROUP % 32 != 0 || GROUP > 512
+#error "GROUP must be a multiple of 32, and at most 512: GroupRays numbers pairs by 16 bits"
 #endif
 // Words of a slot at most: a tile's pixels and the places beside them.
 #define GROUP_WORDS 16u
@@ -49,17 +45,20 @@ typedef struct GroupRays {
 typedef struct GroupWalk {
     uint stack[SHADOW_STACK];
     uint found[GROUP_FOUND];
-    uint nodes[NODES_AT_ONCE];          // off the stack
     float4 forms[GROUP][FORM_FLOAT4S];  // of the triangles that are tested
-    uint top, count;                    // of stack and found
+    uint pushed[2];                     // onto the stack, of every second step
+    uint count;                         // of found
     uint tested;                        // triangles
+    uint masked[GROUP / 32];            // bits of those of them whose alpha may have holes
     uint lit;                           // 1 while some point is
     uint picked;                        // bits of lights
-    uchar flags[FINE_TILE_PIXELS];      // of places: 1 where lit
-    // The points that face the light, in any order: their number, places and positions [m].
-    uint faced;
-    uchar places[FINE_TILE_PIXELS];
+    // The cluster's points by their places in the tile's order: positions [m] and packed normals.
     float x[FINE_TILE_PIXELS], y[FINE_TILE_PIXELS], z[FINE_TILE_PIXELS];
+    float normal[FINE_TILE_PIXELS];
+    uchar flags[FINE_TILE_PIXELS];  // 1 where lit
+    // Places of the points that face the light, in any order, and their number.
+    uchar places[FINE_TILE_PIXELS];
+    uint faced;
 #if COUNT_SHADOWS
     ShadowCounts counts[GROUP];  // of the items: nodes, triangles and shafts by each for all
 #endif
@@ -80,6 +79,7 @@ typedef struct ClusterCast {
     global uint* words;  // of the cluster
     uint words_begin;    // of the cluster, among those of all tiles
     global const uint* kept;
+    uint split;  // the group takes every split-th light
 } ClusterCast;
 
 static inline uint this_item(void) { return get_local_id(0); }
@@ -118,14 +118,14 @@ static inline ShadowLight light_of_cast(ClusterCast cast, uint j) {
 }
 
 #if PICKED_ONLY
-// Which of the cluster's lights first, first + SPLIT, ..., 32 of them at most, any pixel picks.
+// Which of the cluster's lights first, first + split, ..., 32 of them at most, any pixel picks.
 static inline uint find_wanted(ClusterCast cast, uint first, local GroupWalk* walk) {
     barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);  // the last ones are done
     if (this_item() == 0u) walk->picked = 0u;
     barrier(CLK_LOCAL_MEM_FENCE);  // 0 before any adds to it
     uint word = this_item() % GROUP_WORDS;
     for (uint k = this_item() / GROUP_WORDS; k < 32u; k += GROUP / GROUP_WORDS) {
-        uint j = first + k * SPLIT;
+        uint j = first + k * cast.split;
         if (j >= count_of_cluster(cast.from, cast.cluster)) break;
         if (word >= cast.count) continue;
         uint bits = picked_bits(cast.from, j, words_of_light(cast, j) + word, cast.count);
@@ -135,13 +135,13 @@ static inline uint find_wanted(ClusterCast cast, uint first, local GroupWalk* wa
     return walk->picked;
 }
 #else
-// Which of the cluster's lights first, first + SPLIT, ..., 32 of them at most, are not kept.
+// Which of the cluster's lights first, first + split, ..., 32 of them at most, are not kept.
 static inline uint find_wanted(ClusterCast cast, uint first, local GroupWalk* walk) {
     uint wanted = 0xffffffffu;
     if (cast.kept == 0) return wanted;
-    uint count = min(count_of_cluster(cast.from, cast.cluster) - first, 32u * SPLIT);
-    for (uint k = 0; k * SPLIT < count; ++k) {
-        uint word = cast.words_begin + (first + k * SPLIT) * cast.count;
+    uint count = min(count_of_cluster(cast.from, cast.cluster) - first, 32u * cast.split);
+    for (uint k = 0; k * cast.split < count; ++k) {
+        uint word = cast.words_begin + (first + k * cast.split) * cast.count;
         if (is_kept(cast.kept, word)) wanted &= ~(1u << k);
     }
     return wanted;
@@ -152,10 +152,22 @@ static inline uint find_wanted(ClusterCast cast, uint first, local GroupWalk* wa
 static inline void begin_walk(local GroupWalk* walk) {
     if (this_item() != 0u) return;
     walk->stack[0] = 0u;
-    walk->top = 1u;
+    walk->pushed[0] = 0u;
+    walk->pushed[1] = 0u;
     walk->count = 0u;
     walk->lit = 0u;
     walk->faced = 0u;
+}
+
+// What an item knows of the stack, the same for all: `base` entries, and on top of them those that
+// the last step pushed, counted by walk->pushed[side]. Two counters in turn, so that one can be
+// emptied while the other is read.
+typedef struct GroupStack {
+    uint base, side;
+} GroupStack;
+
+static inline uint stack_top(const GroupStack* stack, local const GroupWalk* walk) {
+    return stack->base + walk->pushed[stack->side];
 }
 
 // How many of the `top` nodes on the stack are taken at once: so many that afterwards a walk that
@@ -170,20 +182,21 @@ static inline uint nodes_to_take(ShadowView view, uint top) {
 // Takes `take` nodes off the stack, and puts those of their children that the shaft meets on the
 // stack or into the found triangles.
 static inline void walk_nodes(ShadowScene scene, Shaft shaft, uint top, uint take,
-                              local GroupWalk* walk) {
-    if (this_item() == 0u) walk->top = top - take;
-    if (this_item() < take) walk->nodes[this_item()] = walk->stack[top - 1u - this_item()];
-    barrier(CLK_LOCAL_MEM_FENCE);  // popped before any is pushed
+                              GroupStack* stack, local GroupWalk* walk) {
     uint place = this_item() % SHADOW_WIDTH;
     uint mine = this_item() / SHADOW_WIDTH;
-    global const ShadowNode* node = scene.nodes + (mine < take ? walk->nodes[mine] : 0u);
-    if (mine < take && lane_any(meets_children(shaft, node, place))) {
-        uint child = node->child[place];
-        if ((child & SHADOW_LEAF) != 0u) {
-            walk->found[atomic_inc(&walk->count)] = child;
-        } else {
-            walk->stack[atomic_inc(&walk->top)] = child;
-        }
+    global const ShadowNode* node = scene.nodes + (mine < take ? walk->stack[top - 1u - mine] : 0u);
+    bool meets = mine < take && lane_any(meets_children(shaft, node, place));
+    uint child = meets ? node->child[place] : 0u;
+    barrier(CLK_LOCAL_MEM_FENCE);  // stack and counters are read by all before they change
+    if (this_item() == 0u) walk->pushed[stack->side] = 0u;
+    stack->side ^= 1u;
+    stack->base = top - take;
+    if (!meets) return;
+    if ((child & SHADOW_LEAF) != 0u) {
+        walk->found[atomic_inc(&walk->count)] = child;
+    } else {
+        walk->stack[stack->base + atomic_inc(&walk->pushed[stack->side])] = child;
     }
 }
 #endif

@@ -71,16 +71,23 @@ static inline void add_counts(ShadowPoints* to, const ShadowPoints* from) {
 
 static inline uint lane_count(MASK mask) { return popcount(lane_ballot(mask)); }
 
-static inline void load_origins(ShadowPoints* to, uint row, global const float* origins, uint plane,
-                                Pixels pixels) {
+static inline void store_point(ShadowPoints* to, uint row, FV3 p, FV3 n) {
     uint at = row * VW;
-    lane_store(LOAD_PLANE(FV, origins + ORIGIN_X * plane, pixels), to->x + at);
-    lane_store(LOAD_PLANE(FV, origins + ORIGIN_Y * plane, pixels), to->y + at);
-    lane_store(LOAD_PLANE(FV, origins + ORIGIN_Z * plane, pixels), to->z + at);
-    FV3 n = unpacked_normal(LOAD_PLANE(FV, origins + ORIGIN_NORMAL * plane, pixels));
+    lane_store(p.x, to->x + at);
+    lane_store(p.y, to->y + at);
+    lane_store(p.z, to->z + at);
     lane_store(n.x, to->nx + at);
     lane_store(n.y, to->ny + at);
     lane_store(n.z, to->nz + at);
+}
+
+static inline void load_origins(ShadowPoints* to, uint row, global const float* origins, uint plane,
+                                Pixels pixels) {
+    FV3 p = fv3(LOAD_PLANE(FV, origins + ORIGIN_X * plane, pixels),
+                LOAD_PLANE(FV, origins + ORIGIN_Y * plane, pixels),
+                LOAD_PLANE(FV, origins + ORIGIN_Z * plane, pixels));
+    store_point(to, row, p,
+                unpacked_normal(LOAD_PLANE(FV, origins + ORIGIN_NORMAL * plane, pixels)));
 }
 
 // Point `i` as that of another place.

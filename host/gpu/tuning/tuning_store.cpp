@@ -10,7 +10,7 @@
 namespace kilolux {
 namespace {
 
-constexpr CacheKind kKind = {"tuning", 5};  // 5: with shadow_group
+constexpr CacheKind kKind = {"tuning", 6};  // 6: with shadow_group of the second form
 
 constexpr TuningParameter kParameters[] = {
     {"shade_rows", &Tuning::shade_rows},

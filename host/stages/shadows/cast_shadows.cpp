@@ -8,9 +8,13 @@ namespace kilolux {
 namespace {
 
 // Work-groups for each tile; they share its lights. The tiles with the most triangles end last, and
-// more groups shorten them. Four are faster for sampled shadows: each group searches the tile's
-// lights for its few rays.
-int split_of(const KernelFeatures& features) { return features.sampled_shadows ? 4 : 8; }
+// more groups shorten them, but each has to load the tile's points. Sampled shadows have few rays
+// of each light. words: of the tile's lights, 8 for each light of all of its pixels.
+std::size_t groups_of_tile(bool is_sampled, std::uint64_t words, uint tiles) {
+    constexpr std::uint64_t kLongList = 32;  // lights
+    const bool is_long = words > std::uint64_t{tiles} * kLongList * (FINE_TILE_PIXELS / 32);
+    return is_long && !is_sampled ? 16 : 8;
+}
 constexpr std::size_t kFirstWords = std::size_t{1} << 18;  // that there is room for from the start
 
 // In the work-group form PoCL 3.1 loses values across barriers and reads through wild pointers;
@@ -29,7 +33,7 @@ KernelProgram cast_program(const Gpu& gpu, const Tuning& tuning, const KernelFea
     options.define("PICKED_ONLY", features.sampled_shadows).define("COUNT_SHADOWS", counts);
     if (tuning.shadow_group == 0) return build_program(gpu, "cast_shadows_by_bundle", options);
     if (tuning.shadow_group == 1) return build_program(gpu, "cast_shadows_by_item", options);
-    options.define("GROUP", tuning.shadow_group).define("SPLIT", split_of(features));
+    options.define("GROUP", tuning.shadow_group);
     return build_program(gpu.with_lanes(1), "cast_shadows_by_group", options);
 }
 
@@ -39,14 +43,14 @@ CastShadows::CastShadows(const Gpu& gpu, const Tuning& tuning, const KernelFeatu
                          const SurfaceFeatures& surfaces, bool counts)
     : gpu_(gpu),
       tuning_(usable_for_shadows(tuning, gpu.info)),
-      split_(tuning_.shadow_group > 1 ? split_of(features) : 1),
+      is_sampled_(features.sampled_shadows),
       has_counts_(counts),
       program_(cast_program(gpu, tuning_, features, surfaces, counts)),
       reserve_(gpu, program_, kCastShadowsStage, "cast_shadows_reserve"),
       cast_(gpu, program_, kCastShadowsStage, "cast_shadows"),
       words_(gpu, tuning, kCastShadowsStage, "words of shadow bits", sizeof(uint)),
       counts_(gpu, kCastShadowsStage) {
-    if (split_ > 1) order_.emplace(gpu, tuning, kCastShadowsStage);
+    if (tuning_.shadow_group > 1) order_.emplace(gpu, tuning, kCastShadowsStage);
     words_.reserve(kFirstWords);
 }
 
@@ -76,7 +80,8 @@ bool CastShadows::fits() {
 WorkSize CastShadows::work_size(uint tiles, const View& view) const {
     const int group = tuning_.shadow_group;
     if (group == 0) return cast_.pixel_items(view, tuning_.shade_rows);
-    return groups(std::size_t{tiles} * static_cast<std::size_t>(split_), group);
+    const std::size_t split = group > 1 ? groups_of_tile(is_sampled_, word_count_, tiles) : 1;
+    return groups(tiles * split, group);
 }
 
 void CastShadows::enqueue(const ShadowInput& input, const LitPixels& lit, const ShadowTargets& to,

@@ -53,7 +53,7 @@ class CastShadows {
 
     Gpu gpu_;
     Tuning tuning_;
-    int split_;  // work-groups for each tile
+    bool is_sampled_;
     bool has_counts_;
     KernelProgram program_;
     Kernel reserve_, cast_;
