@@ -186,8 +186,8 @@ static inline void walk_nodes(ShadowScene scene, Shaft shaft, uint top, uint tak
     uint place = this_item() % SHADOW_WIDTH;
     uint mine = this_item() / SHADOW_WIDTH;
     global const ShadowNode* node = scene.nodes + (mine < take ? walk->stack[top - 1u - mine] : 0u);
+    uint child = node->child[place];  // asked for beside the boxes
     bool meets = mine < take && lane_any(meets_children(shaft, node, place));
-    uint child = meets ? node->child[place] : 0u;
     barrier(CLK_LOCAL_MEM_FENCE);  // stack and counters are read by all before they change
     if (this_item() == 0u) walk->pushed[stack->side] = 0u;
     stack->side ^= 1u;
