@@ -31,6 +31,6 @@ using OnIsolated = std::function<void(const Certificate& found, std::size_t left
 Certificate certify_isolated(const IsolatedRequest& request, const Certificate& found,
                              const OnIsolated& on_begin, const OnIsolated& on_done);
 
-inline constexpr int kIsolatedSeconds = 120;
+inline constexpr int kIsolatedSeconds = 300;
 
 }  // namespace kilolux
