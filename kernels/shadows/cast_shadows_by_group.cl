@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// cast_shadows by work-groups. Several have the same tile and share its lights. In a step the items
-// of a group test the children of GROUP / SHADOW_WIDTH nodes, an item a child; or they set up GROUP
-// triangles, an item each, and test them on the points that face the light, an item POINTS_AT_ONCE.
-// For GPUs, fastest in groups of as many items as run in step; one pixel a lane. The order in which
-// items find triangles does not change the result.
+// cast_shadows by work-groups. Several have the same tile and share its lights. A step either tests
+// the children of GROUP / SHADOW_WIDTH nodes, one for each item; or it sets up GROUP triangles, one
+// for each item, and tests them on the points that face the light, POINTS_AT_ONCE of an item at a
+// time. For GPUs, fastest where GROUP is the number of items that run in step; one pixel a lane.
+// The order in which items find triangles does not change the result.
 #define ORDERED_PIXELS 1
-#define SHADOW_POINTS 1
+#define SHADOW_POINTS 1  // of ShadowPoints: one at a time
 #include "kernels/shadows/area_group.h"
 #include "kernels/shadows/shadow_group.h"
 
 // Points that an item tests at once, on forms that it loads once.
-#define POINTS_AT_ONCE 2u
+#define POINTS_AT_ONCE 2u  // lit_of_points() chooses between two
 
 // The points of a cluster, for the items to share.
 static inline void share_points(View view, global const float* origins, uint tile,
@@ -66,8 +66,8 @@ static inline float form4_at(float4 f, FV3 x) {
     return fma(f.x, x.x, fma(f.y, x.y, fma(f.z, x.z, f.w)));
 }
 
-// Whether one of the triangles first + i, i a bit of `bits`, hides a point: those for which the
-// forms alone do not say so.
+// Whether any of the triangles first + i hides the point, where bit i of `bits` is set. It tests
+// boxes and alpha, for triangles whose forms alone do not decide.
 static inline bool is_hidden_by_any(ShadowScene scene, ShadowLight light,
                                     local const GroupWalk* walk, uint first, uint bits, FV3 point) {
     FV3 e = edge_point(light, point);
@@ -95,9 +95,9 @@ static inline bool is_hidden_by_any(ShadowScene scene, ShadowLight light,
     return hidden;
 }
 
-// Tests triangles `first` .. `end` - 1 of those that are set up, 32 at most, on the item's points
-// k, k + 1, ..., POINTS_AT_ONCE of them. Returns those of `lit`, a bit for each, that stay lit.
-// What is rare comes last and once, since it takes many registers.
+// Tests triangles first .. end - 1, 32 at most, on points k .. k + POINTS_AT_ONCE - 1 of the item.
+// lit: a bit for each point. Returns those that stay lit. Boxes and alpha come in a second loop:
+// they are rare, and take registers.
 static inline uint lit_of_points(ShadowScene scene, ShadowLight light, local const GroupWalk* walk,
                                  uint first, uint end, uint k, uint lit, ShadowPoints* counted) {
     FV3 p[POINTS_AT_ONCE], e[POINTS_AT_ONCE];
@@ -127,7 +127,7 @@ static inline uint lit_of_points(ShadowScene scene, ShadowLight light, local con
     }
 #pragma unroll 1
     for (uint h = 0; h < POINTS_AT_ONCE; ++h) {
-        uint bits = h == 0u ? unsure[0] : unsure[1];
+        uint bits = h == 0u ? unsure[0] : unsure[POINTS_AT_ONCE - 1u];
         if ((lit >> h & 1u) == 0u || bits == 0u) continue;
         FV3 point = faced_point(walk, (k + h) * GROUP + this_item());
         if (is_hidden_by_any(scene, light, walk, first, bits, point)) lit &= ~(1u << h);
@@ -135,8 +135,9 @@ static inline uint lit_of_points(ShadowScene scene, ShadowLight light, local con
     return lit;
 }
 
-// Tests the triangles that are set up on the item's points: point k of an item is number k * GROUP
-// + this_item() of those that face the light. lit: in/out, a bit for each. Whether any stays lit.
+// Tests the triangles that are set up on the item's points. Point k of an item is the (k * GROUP +
+// this_item())-th that faces the light. lit: in/out, a bit for each of them. Returns whether any
+// stays lit.
 static inline bool shade_points(ShadowScene scene, ShadowLight light, local const GroupWalk* walk,
                                 uint* lit, ShadowPoints* counted) {
     const uint all = (1u << POINTS_AT_ONCE) - 1u;
@@ -151,7 +152,8 @@ static inline bool shade_points(ShadowScene scene, ShadowLight light, local cons
     return *lit != 0u;
 }
 
-// Tests the last GROUP of the `count` triangles that were found, or all.
+// Tests the last GROUP of `count` found triangles, or all if there are fewer, and takes them off
+// the list.
 static inline void test_found(ShadowScene scene, ShadowLight light, Shaft shaft, uint count,
                               local GroupWalk* walk, uint* lit, ShadowPoints* counted) {
     uint first = count > GROUP ? count - GROUP : 0u;
@@ -179,13 +181,13 @@ static inline void test_found(ShadowScene scene, ShadowLight light, Shaft shaft,
 }
 
 // The group's counts, of which all items have the same nodes, triangles and shafts.
-static inline void store_counts(const ShadowPoints* points, local GroupWalk* walk,
+static inline void store_counts(const ShadowPoints* counted, local GroupWalk* walk,
                                 global ShadowCounts* to) {
 #if COUNT_SHADOWS
-    walk->counts[this_item()] = points->counts;
+    walk->counts[this_item()] = counted->counts;
     barrier(CLK_LOCAL_MEM_FENCE);  // all are there
     if (this_item() != 0u) return;
-    ShadowCounts sum = points->counts;
+    ShadowCounts sum = counted->counts;
     for (uint i = 1; i < GROUP; ++i) {
         sum.rays += walk->counts[i].rays;
         sum.met_rays += walk->counts[i].met_rays;
@@ -362,7 +364,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cast_shadows(
                                            // tile has lights
     global const uint* restrict tiles) {   // of order_tiles
     local GroupWalk walk;
-    uint split = get_num_groups(0) / fine_tile_count(view);
+    uint split = get_num_groups(0) / fine_tile_count(view);  // groups for each tile
     uint tile = tiles[get_group_id(0) / split];
     if (!HAS_USABLE_WORDS(tile)) return;
     Clusters active = CLUSTERS_OF_ARGS;
@@ -390,7 +392,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cast_shadows(
             share_points(view, origins, tile, order, cast.first, cast.end, &walk);
             cast_lights(cast, start, &walk, &counted);
         }
-        // Groups take the lights of all clusters in turn.
+        // The first light of the next cluster goes to the group after that of the last one here.
         start = (start + split - count % split) % split;
     }
 #if COUNT_SHADOWS

@@ -46,11 +46,11 @@ typedef struct GroupWalk {
     uint stack[SHADOW_STACK];
     uint found[GROUP_FOUND];
     float4 forms[GROUP][FORM_FLOAT4S];  // of the triangles that are tested
-    uint pushed[2];                     // onto the stack, of every second step
+    uint pushed[2];                     // onto the stack; steps use the two in turn
     uint count;                         // of found
     uint tested;                        // triangles
-    uint masked[GROUP / 32];            // bits of those of them whose alpha may have holes
-    uint lit;                           // 1 while some point is
+    uint masked[GROUP / 32];            // bit i: triangle i of them may have holes
+    uint lit;                           // 1 while any point or ray is
     uint picked;                        // bits of lights
     // The cluster's points by their places in the tile's order: positions [m] and packed normals.
     float x[FINE_TILE_PIXELS], y[FINE_TILE_PIXELS], z[FINE_TILE_PIXELS];
@@ -159,9 +159,9 @@ static inline void begin_walk(local GroupWalk* walk) {
     walk->faced = 0u;
 }
 
-// What an item knows of the stack, the same for all: `base` entries, and on top of them those that
-// the last step pushed, counted by walk->pushed[side]. Two counters in turn, so that one can be
-// emptied while the other is read.
+// An item's copy of the stack's state, the same in all items: `base` entries, and above them those
+// that the last step pushed, walk->pushed[side] of them. There are two counters, so that one is
+// read while the other is emptied.
 typedef struct GroupStack {
     uint base, side;
 } GroupStack;
@@ -186,7 +186,7 @@ static inline void walk_nodes(ShadowScene scene, Shaft shaft, uint top, uint tak
     uint place = this_item() % SHADOW_WIDTH;
     uint mine = this_item() / SHADOW_WIDTH;
     global const ShadowNode* node = scene.nodes + (mine < take ? walk->stack[top - 1u - mine] : 0u);
-    uint child = node->child[place];  // asked for beside the boxes
+    uint child = node->child[place];  // loaded with the boxes, before it is known to be needed
     bool meets = mine < take && lane_any(meets_children(shaft, node, place));
     barrier(CLK_LOCAL_MEM_FENCE);  // stack and counters are read by all before they change
     if (this_item() == 0u) walk->pushed[stack->side] = 0u;

@@ -10,7 +10,7 @@
 namespace kilolux {
 namespace {
 
-constexpr CacheKind kKind = {"tuning", 6};  // 6: with shadow_group of the second form
+constexpr CacheKind kKind = {"tuning", 6};  // 6: another kernel for shadow_group
 
 constexpr TuningParameter kParameters[] = {
     {"shade_rows", &Tuning::shade_rows},

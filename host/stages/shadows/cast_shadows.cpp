@@ -7,14 +7,16 @@
 namespace kilolux {
 namespace {
 
-// Work-groups for each tile; they share its lights. The tiles with the most triangles end last, and
-// more groups shorten them, but each has to load the tile's points. Sampled shadows have few rays
-// of each light. words: of the tile's lights, 8 for each light of all of its pixels.
+// Work-groups for each tile; they share its lights. More groups shorten the tiles that end last,
+// but each group loads the tile's points: so there are 16 only where tiles have more than kLongList
+// lights on average, and never for sampled shadows, which have few rays. words: of all tiles, maybe
+// of the frame before; a light that reaches a whole tile has 8.
 std::size_t groups_of_tile(bool is_sampled, std::uint64_t words, uint tiles) {
     constexpr std::uint64_t kLongList = 32;  // lights
     const bool is_long = words > std::uint64_t{tiles} * kLongList * (FINE_TILE_PIXELS / 32);
     return is_long && !is_sampled ? 16 : 8;
 }
+
 constexpr std::size_t kFirstWords = std::size_t{1} << 18;  // that there is room for from the start
 
 // In the work-group form PoCL 3.1 loses values across barriers and reads through wild pointers;
@@ -81,7 +83,7 @@ WorkSize CastShadows::work_size(uint tiles, const View& view) const {
     const int group = tuning_.shadow_group;
     if (group == 0) return cast_.pixel_items(view, tuning_.shade_rows);
     const std::size_t split = group > 1 ? groups_of_tile(is_sampled_, word_count_, tiles) : 1;
-    return groups(tiles * split, group);
+    return groups(tiles * split, group);  // exactly: the kernel finds `split` by it
 }
 
 void CastShadows::enqueue(const ShadowInput& input, const LitPixels& lit, const ShadowTargets& to,
