@@ -350,9 +350,7 @@ static inline void cast_lights(ClusterCast cast, uint start, local GroupWalk* wa
                                ShadowPoints* counted) {
     uint count = count_of_cluster(cast.from, cast.cluster);
     for (uint j = start; j < count; j += 32u * cast.split) {
-        uint left = (count - j + cast.split - 1u) / cast.split;
-        uint bits = find_wanted(cast, j, walk) & (0xffffffffu >> (32u - min(left, 32u)));
-        for (; bits != 0u; bits &= bits - 1u) {
+        for (uint bits = find_wanted(cast, j, walk); bits != 0u; bits &= bits - 1u) {
             cast_light(cast, j + lowest_bit(bits) * cast.split, walk, counted);
         }
     }

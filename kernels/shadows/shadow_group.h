@@ -137,10 +137,11 @@ static inline uint find_wanted(ClusterCast cast, uint first, local GroupWalk* wa
 #else
 // Which of the cluster's lights first, first + split, ..., 32 of them at most, are not kept.
 static inline uint find_wanted(ClusterCast cast, uint first, local GroupWalk* walk) {
-    uint wanted = 0xffffffffu;
+    uint left = count_of_cluster(cast.from, cast.cluster) - first;
+    uint count = min((left + cast.split - 1u) / cast.split, 32u);
+    uint wanted = 0xffffffffu >> (32u - count);
     if (cast.kept == 0) return wanted;
-    uint count = min(count_of_cluster(cast.from, cast.cluster) - first, 32u * cast.split);
-    for (uint k = 0; k * cast.split < count; ++k) {
+    for (uint k = 0; k < count; ++k) {
         uint word = cast.words_begin + (first + k * cast.split) * cast.count;
         if (is_kept(cast.kept, word)) wanted &= ~(1u << k);
     }
