@@ -41,19 +41,19 @@ static inline float4 float4_of(ShadowForm form) {
 }
 
 // The forms of the item's triangle, if it may shade.
-static inline void set_up_found(ShadowScene scene, ShadowLight light, Shaft shaft, uint child,
+static inline void set_up_found(ShadowScene scene, ShadowLight light, uint child,
                                 local GroupWalk* walk) {
     FV3 v[3];
     load_casters(scene, &child, v);
 #if AREA_SHADOWS
     if (light.is_area) {
-        set_up_corners(v, light, shaft, child, walk);
+        set_up_corners(v, light, walk->shaft, child, walk);
         return;
     }
 #endif
     MASK sure;
     ShadowTriangles t = set_up_shadow(v, shared_light(light), scene.view.extent, &sure);
-    if (!lane_any(sure & may_shade(shaft, &t))) return;
+    if (!lane_any(sure & may_shade(walk->shaft, &t))) return;
     uint number = atomic_inc(&walk->tested);
     if ((child & SHADOW_MASKED) != 0u) atomic_or(&walk->masked[number / 32u], 1u << number % 32u);
     local float4* to = walk->forms[number];
@@ -154,7 +154,7 @@ static inline bool shade_points(ShadowScene scene, ShadowLight light, local cons
 
 // Tests the last GROUP of `count` found triangles, or all if there are fewer, and takes them off
 // the list.
-static inline void test_found(ShadowScene scene, ShadowLight light, Shaft shaft, uint count,
+static inline void test_found(ShadowScene scene, ShadowLight light, uint count,
                               local GroupWalk* walk, uint* lit, ShadowPoints* counted) {
     uint first = count > GROUP ? count - GROUP : 0u;
     ADD_COUNT(counted, triangles, count - first);
@@ -169,7 +169,7 @@ static inline void test_found(ShadowScene scene, ShadowLight light, Shaft shaft,
     }
     barrier(CLK_LOCAL_MEM_FENCE);  // 0 before any adds to it
     uint i = first + this_item();
-    if (i < count) set_up_found(scene, light, shaft, walk->found[i], walk);
+    if (i < count) set_up_found(scene, light, walk->found[i], walk);
     barrier(CLK_LOCAL_MEM_FENCE);  // all are set up
 #if AREA_SHADOWS
     bool any = light.is_area ? shade_rays(scene, light, walk, counted)
@@ -199,12 +199,15 @@ static inline void store_counts(const ShadowPoints* counted, local GroupWalk* wa
 }
 
 // Clears the bits of the item's points that a triangle hides from the light.
-static inline void cast_shadows_of_group(ShadowScene scene, ShadowLight light, Shaft shaft,
+static inline void cast_shadows_of_group(ShadowScene scene, ShadowLight light,
                                          local GroupWalk* walk, uint* lit, ShadowPoints* counted) {
+    if (this_item() == 0u) {
+        walk->shaft = make_shaft(light, box_end(walk->box.low), box_end(walk->box.high));
+    }
     GroupStack stack = {1u, 0u};
     bool begins = true;
     for (;;) {
-        barrier(CLK_LOCAL_MEM_FENCE);  // stack and found are complete
+        barrier(CLK_LOCAL_MEM_FENCE);  // shaft, stack and found are complete
         uint top = stack_top(&stack, walk);
         uint count = walk->count;
         bool goes_on = walk->lit != 0u && (top > 0u || count > 0u);
@@ -214,24 +217,24 @@ static inline void cast_shadows_of_group(ShadowScene scene, ShadowLight light, S
         if (top > 0u && count <= GROUP) {
             uint take = nodes_to_take(scene.view, top);
             ADD_COUNT(counted, nodes, take);
-            walk_nodes(scene, shaft, top, take, &stack, walk);
+            walk_nodes(scene, top, take, &stack, walk);
         } else {
             barrier(CLK_LOCAL_MEM_FENCE);  // read by all before it changes
-            test_found(scene, light, shaft, count, walk, lit, counted);
+            test_found(scene, light, count, walk, lit, counted);
         }
     }
 }
 
+// Bits of four bytes that are 0 or 1 each, the lowest first.
+static inline uint bits_of_bytes(uint bytes) { return bytes * 0x01020408u >> 24; }
+
 // Words of the cluster's flags: an item writes a byte at a time.
 static inline void store_words(uint first, uint end, local GroupWalk* walk, global uint* words) {
     uint count = shadow_words(first, end);
-    uint from = first / 32u * 32u;
+    uint from = first / 32u * 8u;  // the word's flags
     for (uint i = this_item(); i < count * 4u; i += GROUP) {
-        uint bits = 0u;
-        for (uint bit = 0; bit < 8u; ++bit) {
-            uint place = from + i * 8u + bit;
-            if (place >= first && place < end && walk->flags[place]) bits |= 1u << bit;
-        }
+        local const uint* flags = walk->flags + from + 2u * i;
+        uint bits = bits_of_bytes(flags[0]) | bits_of_bytes(flags[1]) << 4;
 #if PICKED_ONLY
         ((global uchar*)words)[i] &= (uchar)~bits;
 #else
@@ -274,7 +277,8 @@ static inline uint bits_of_faced(local const GroupWalk* walk) {
 // Sets the flags of the item's points that are lit.
 static inline void flag_lit(uint lit, local GroupWalk* walk) {
     for (; lit != 0u; lit &= lit - 1u) {
-        walk->flags[walk->places[lowest_bit(lit) * GROUP + this_item()]] = 1u;
+        uint place = walk->places[lowest_bit(lit) * GROUP + this_item()];
+        ((local uchar*)walk->flags)[place] = 1u;
     }
 }
 
@@ -289,15 +293,14 @@ static inline void cast_light(ClusterCast cast, uint j, local GroupWalk* walk,
     barrier(CLK_LOCAL_MEM_FENCE);  // the last light is done
     begin_walk(walk);
     empty_box(&walk->box);
-    for (uint i = cast.first + this_item(); i < cast.end; i += GROUP) walk->flags[i] = 0u;
+    for (uint i = this_item(); i < FINE_TILE_PIXELS / 4u; i += GROUP) walk->flags[i] = 0u;
     barrier(CLK_LOCAL_MEM_FENCE);  // empty before any adds to it
     gather_faced(cast, light, words, walk);
     barrier(CLK_LOCAL_MEM_FENCE);  // all are gathered
     uint lit = bits_of_faced(walk);
     uint rays = popcount(lit);
     ulong tests_before = counted_tests(counted);
-    Shaft shaft = make_shaft(light, box_end(walk->box.low), box_end(walk->box.high));
-    cast_shadows_of_group(cast.scene, light, shaft, walk, &lit, counted);
+    cast_shadows_of_group(cast.scene, light, walk, &lit, counted);
     count_rays(counted, tests_before, rays, popcount(lit));
     flag_lit(lit, walk);
     // All flags are set, and all have read the words.
@@ -320,9 +323,8 @@ static inline bool cast_area_light(ClusterCast cast, uint j, AreaPixels pixels,
         uint rays = make_rays(cast, pixels, light, walk);
         light.area.low = box_end(walk->rays.targets_box.low);
         light.area.high = box_end(walk->rays.targets_box.high);
-        Shaft shaft = make_shaft(light, box_end(walk->box.low), box_end(walk->box.high));
         uint none = 0u;  // points: these are rays
-        cast_shadows_of_group(cast.scene, light, shaft, walk, &none, counted);
+        cast_shadows_of_group(cast.scene, light, walk, &none, counted);
         count_rays(counted, tests_before, rays, put_seen(words, &walk->rays));
         goes_on = walk->rays.any_left != 0u;
     }

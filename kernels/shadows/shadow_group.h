@@ -55,7 +55,8 @@ typedef struct GroupWalk {
     // The cluster's points by their places in the tile's order: positions [m] and packed normals.
     float x[FINE_TILE_PIXELS], y[FINE_TILE_PIXELS], z[FINE_TILE_PIXELS];
     float normal[FINE_TILE_PIXELS];
-    uchar flags[FINE_TILE_PIXELS];  // 1 where lit
+    // 1 where lit, a byte for each place.
+    uint flags[FINE_TILE_PIXELS / 4];
     // Places of the points that face the light, in any order, and their number.
     uchar places[FINE_TILE_PIXELS];
     uint faced;
@@ -63,6 +64,7 @@ typedef struct GroupWalk {
     ShadowCounts counts[GROUP];  // of the items: nodes, triangles and shafts by each for all
 #endif
     GroupBox box;  // of the points that face the light
+    Shaft shaft;   // here, since registers for it would leave room for fewer groups at once
 #if AREA_SHADOWS
     GroupRays rays;
 #endif
@@ -182,13 +184,13 @@ static inline uint nodes_to_take(ShadowView view, uint top) {
 
 // Takes `take` nodes off the stack, and puts those of their children that the shaft meets on the
 // stack or into the found triangles.
-static inline void walk_nodes(ShadowScene scene, Shaft shaft, uint top, uint take,
-                              GroupStack* stack, local GroupWalk* walk) {
+static inline void walk_nodes(ShadowScene scene, uint top, uint take, GroupStack* stack,
+                              local GroupWalk* walk) {
     uint place = this_item() % SHADOW_WIDTH;
     uint mine = this_item() / SHADOW_WIDTH;
     global const ShadowNode* node = scene.nodes + (mine < take ? walk->stack[top - 1u - mine] : 0u);
     uint child = node->child[place];  // loaded with the boxes, before it is known to be needed
-    bool meets = mine < take && lane_any(meets_children(shaft, node, place));
+    bool meets = mine < take && lane_any(meets_children(walk->shaft, node, place));
     barrier(CLK_LOCAL_MEM_FENCE);  // stack and counters are read by all before they change
     if (this_item() == 0u) walk->pushed[stack->side] = 0u;
     stack->side ^= 1u;
