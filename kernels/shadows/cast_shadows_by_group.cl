@@ -17,7 +17,6 @@ static inline void share_points(View view, global const float* origins, uint til
                                 global const uchar* order, uint first, uint end,
                                 local GroupWalk* walk) {
     uint plane = view.stride * view.height;
-    barrier(CLK_LOCAL_MEM_FENCE);  // the last cluster is done
     for (uint place = first + this_item(); place < end; place += GROUP) {
         Pixels pixels = pixels_of_tile(view, tile, place, order);
         walk->x[place] = LOAD_PLANE(FV, origins + ORIGIN_X * plane, pixels);

@@ -108,68 +108,6 @@ TEST(EveryKernel, Shadows) { expect_shadows(4, 1); }
 TEST(EveryKernel, ShadowsByGroup) { expect_shadows(1, 32); }
 TEST(EveryKernel, ShadowsByBundle) { expect_shadows(4, 0); }
 
-// Nodes whose children are all the next node, and one of leaves that hide everything.
-ShadowCasters deep_casters(const Gpu& gpu, std::size_t levels) {
-    std::vector<ShadowNode> nodes(levels, empty_node());
-    for (std::size_t i = 0; i < levels; ++i) {
-        const bool is_last = i + 1 == levels;
-        for (int child = 0; child < SHADOW_WIDTH; ++child)
-            set_child(nodes[i], child, is_last ? SHADOW_LEAF : static_cast<uint>(i + 1));
-    }
-    const std::vector<uint> none(64, 0);
-    return {new_buffer(gpu, nodes),
-            new_buffer(gpu, std::vector<float>{-90, -40, -5, 90, -40, -5, 0, 90, -5}),
-            new_buffer(gpu, none),
-            new_buffer(gpu, none),
-            new_buffer(gpu, none),
-            new_buffer(gpu, none),
-            new_buffer(gpu, none)};
-}
-
-// A work-group pops several nodes at once: their children must not outgrow its stack.
-void expect_deep_shadows(int group, uint levels, bool are_known) {
-    const Gpu gpu = test_gpu(1);
-    Tuning tuning = default_tuning(gpu.info);
-    tuning.shadow_group = group;
-    KernelFeatures features;
-    features.shading = SHADING_LAMBERT;
-    features.shadows = true;
-    ViewShape shape;
-    shape.width = shape.height = 16;
-    shape.rotated = false;
-    const View view = make_view(shape);
-    const ClusterGrid grid = make_cluster_grid({1, 1, 1, 1.0f, 30.0f}, 16, 16);
-    const GBuffer gbuffer =
-        upload_gbuffer(gpu, make_synthetic(view, features, slanted_depth(9, 9, 16)));
-    const LightInput lights = upload_lights(gpu, {point_light({0, 0, -1}, 100)});
-    StageTimer timer;
-    LightLists stages(gpu, tuning, features);
-    const ListedLights lists = stages.run(lights, gbuffer, grid, timer);
-    ShadowInput input{deep_casters(gpu, levels), unmoved_view(),
-                      origins_of(gpu, features, gbuffer)};
-    if (are_known) input.view.levels = levels;
-    CastShadows cast(gpu, tuning, features, {}, true);
-    const ShadowWords words = cast.reserve(lists.lights, lists.clusters, timer);
-    cast.enqueue(input, lists.at(gbuffer), {words}, timer);
-    EXPECT_GT(cast.counts().rays, 0u);
-    EXPECT_EQ(cast.counts().seen, 0u);
-    for (const uint word : download(gpu, words.words, cast.words())) EXPECT_EQ(word, 0u);
-    tuning.shadow_group = 1;
-    CastShadows by_item(gpu, tuning, features, {}, true);
-    const ShadowWords others = by_item.reserve(lists.lights, lists.clusters, timer);
-    by_item.enqueue(input, lists.at(gbuffer), {others}, timer);
-    EXPECT_EQ(cast.counts().rays, by_item.counts().rays)
-        << "of a cluster with more points than items";
-}
-
-TEST(EveryKernel, DeepShadowsByGroup) {
-    expect_deep_shadows(64, 10, true);
-    expect_deep_shadows(64, 10, false);
-    expect_deep_shadows(64, SHADOW_LEVELS, true);
-    expect_deep_shadows(128, 10, true);
-    expect_deep_shadows(128, 10, false);
-}
-
 TEST(CastShadows, LanesChangeNoBit) {
     const CastFrame one = cast_frame(1, 1);
     for (const int lanes : runs_full() ? std::vector{2, 8, 16} : std::vector{16}) {

@@ -29,6 +29,20 @@ inline void set_child(ShadowNode& node, int i, uint child) {
     node.child[i] = child;
 }
 
+/// Buffers with nothing in them, for a test to replace some of.
+inline ShadowCasters no_casters(const Gpu& gpu) {
+    const std::vector<uint> none(64, 0);
+    ShadowCasters out;
+    out.nodes = new_buffer(gpu, none);
+    out.triangles = new_buffer(gpu, none);
+    out.masked = new_buffer(gpu, none);
+    out.tinting = new_buffer(gpu, none);
+    out.materials = new_buffer(gpu, none);
+    out.textures = new_buffer(gpu, none);
+    out.texels = new_buffer(gpu, none);
+    return out;
+}
+
 /// Triangles before a camera that looks down -Z, below a root with two nodes.
 inline ShadowCasters random_casters(const Gpu& gpu) {
     std::mt19937 random(7);
@@ -49,14 +63,9 @@ inline ShadowCasters random_casters(const Gpu& gpu) {
         set_child(nodes[static_cast<std::size_t>(1 + i % 2)], i / 2,
                   SHADOW_LEAF | static_cast<uint>(i));
     }
-    ShadowCasters out;
+    ShadowCasters out = no_casters(gpu);
     out.nodes = new_buffer(gpu, nodes);
     out.triangles = new_buffer(gpu, triangles);
-    const std::vector<uint> none(64, 0);
-    out.masked = new_buffer(gpu, none);
-    out.materials = new_buffer(gpu, none);
-    out.textures = new_buffer(gpu, none);
-    out.texels = new_buffer(gpu, none);
     return out;
 }
 

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// What only the work-group form of cast_shadows does: it takes several nodes and up to a group's
+// triangles at once. It gives the bits and counts of the form by work-items. Runs under oclgrind,
+// since PoCL does not run that form.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "host/stages/shadows/cast_shadows.h"
+#include "kernels/shared/evaluate_modes.h"
+#include "tests/opencl/shadows/casters.h"
+
+namespace kilolux {
+namespace {
+
+struct Cast {
+    std::vector<uint> words;
+    ShadowCounts counts{};
+};
+
+struct CastCase {
+    ShadowCasters casters;
+    bool has_masks = false;
+    uint levels = 0;  // 0: not known
+    uint slices = 1;  // of the one tile's depth
+    std::vector<Light> lights;
+};
+
+// Of a picture of one tile.
+Cast cast_in_tile(const Gpu& gpu, int group, const CastCase& asked) {
+    Tuning tuning = default_tuning(gpu.info);
+    tuning.shadow_group = group;
+    KernelFeatures features;
+    features.shading = SHADING_LAMBERT;
+    features.shadows = true;
+    SurfaceFeatures surfaces;
+    surfaces.masks = asked.has_masks;
+    ViewShape shape;
+    shape.width = shape.height = FINE_TILE;
+    shape.rotated = false;
+    const View view = make_view(shape);
+    const ClusterGrid grid =
+        make_cluster_grid({1, 1, asked.slices, 1.0f, 30.0f}, FINE_TILE, FINE_TILE);
+    const GBuffer gbuffer =
+        upload_gbuffer(gpu, make_synthetic(view, features, slanted_depth(9, 16, FINE_TILE)));
+    const LightInput lights = upload_lights(gpu, asked.lights);
+    StageTimer timer;
+    LightLists stages(gpu, tuning, features);
+    const ListedLights lists = stages.run(lights, gbuffer, grid, timer);
+    ShadowInput input{asked.casters, unmoved_view(), origins_of(gpu, features, gbuffer)};
+    input.view.levels = asked.levels;
+    CastShadows cast(gpu, tuning, features, surfaces, true);
+    const ShadowWords words = cast.reserve(lists.lights, lists.clusters, timer);
+    cast.enqueue(input, lists.at(gbuffer), {words}, timer);
+    return {download(gpu, words.words, cast.words()), cast.counts()};
+}
+
+// Nodes whose children are all the next node, and one of leaves that hide everything.
+ShadowCasters deep_casters(const Gpu& gpu, std::size_t levels) {
+    std::vector<ShadowNode> nodes(levels, empty_node());
+    for (std::size_t i = 0; i < levels; ++i) {
+        const bool is_last = i + 1 == levels;
+        for (int child = 0; child < SHADOW_WIDTH; ++child)
+            set_child(nodes[i], child, is_last ? SHADOW_LEAF : static_cast<uint>(i + 1));
+    }
+    ShadowCasters out = no_casters(gpu);
+    out.nodes = new_buffer(gpu, nodes);
+    out.triangles = new_buffer(gpu, std::vector<float>{-90, -40, -5, 90, -40, -5, 0, 90, -5});
+    return out;
+}
+
+// A work-group pops several nodes at once: their children must not outgrow its stack.
+void expect_deep_shadows(int group, uint levels, bool are_known) {
+    const Gpu gpu = test_gpu(1);
+    const CastCase asked{.casters = deep_casters(gpu, levels),
+                         .levels = are_known ? levels : 0,
+                         .lights = {point_light({0, 0, -1}, 100)}};
+    const Cast cast = cast_in_tile(gpu, group, asked);
+    EXPECT_GT(cast.counts.rays, 0u);
+    EXPECT_EQ(cast.counts.seen, 0u);
+    for (const uint word : cast.words) EXPECT_EQ(word, 0u);
+    EXPECT_EQ(cast.counts.rays, cast_in_tile(gpu, 1, asked).counts.rays)
+        << "of a cluster with more points than items";
+}
+
+TEST(EveryKernel, DeepShadowsByGroup) {
+    expect_deep_shadows(64, 10, true);
+    expect_deep_shadows(64, 10, false);
+    expect_deep_shadows(64, SHADOW_LEVELS, true);
+    expect_deep_shadows(128, 10, true);
+    expect_deep_shadows(128, 10, false);
+}
+
+constexpr uint kLeafNodes = 4, kLeaves = 12;  // of each
+
+// A root, two nodes and four with twelve small triangles each, of which every third has alpha from
+// 0 to 1.
+ShadowCasters crowded_casters(const Gpu& gpu) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<float> across(-3.0f, 3.0f), depth(-7.0f, -2.0f),
+        size(-0.8f, 0.8f);
+    std::vector<ShadowNode> nodes(3 + kLeafNodes, empty_node());
+    set_child(nodes[0], 3, 1);
+    set_child(nodes[0], 9, 2);
+    std::vector<float> triangles;
+    std::vector<MaskedCaster> masked;
+    for (uint i = 0; i < kLeafNodes; ++i) {
+        set_child(nodes[1 + i / 2], static_cast<int>(i % 2), 3 + i);
+        for (uint leaf = 0; leaf < kLeaves; ++leaf) {
+            const uint number = i * kLeaves + leaf;
+            const float x = across(random), y = across(random), z = depth(random);
+            for (int corner = 0; corner < 3; ++corner) {
+                triangles.insert(triangles.end(),
+                                 {x + size(random), y + size(random), z + size(random)});
+            }
+            uint child = SHADOW_LEAF | number;
+            if (leaf % 3 == 0) {
+                child = SHADOW_LEAF | SHADOW_MASKED | static_cast<uint>(masked.size());
+                masked.push_back({{}, {}, {0.0f, 1.0f, 1.0f}, number, 0, 0});
+            }
+            set_child(nodes[3 + i], static_cast<int>(leaf), child);
+        }
+    }
+    SurfaceMaterial material{};
+    material.row.base_color = {1, 1, 1, 1};
+    material.row.emissive_cutoff = {0, 0, 0, 0.5f};
+    material.textures[USE_BASE_COLOR] = SURFACE_ABSENT;
+    ShadowCasters out = no_casters(gpu);
+    out.nodes = new_buffer(gpu, nodes);
+    out.triangles = new_buffer(gpu, triangles);
+    out.masked = new_buffer(gpu, masked);
+    out.materials = new_buffer(gpu, std::vector{material});
+    return out;
+}
+
+// More triangles than a group tests at once, some of them with holes, seen from several clusters.
+TEST(EveryKernel, CrowdedShadowsByGroup) {
+    const Gpu gpu = test_gpu(1);
+    CastCase asked{.casters = crowded_casters(gpu), .has_masks = true, .slices = 2, .lights = {}};
+    for (int i = 0; i < 10; ++i) {  // more than a tile has groups
+        asked.lights.push_back(point_light({0.4 * i - 2, 1 - 0.2 * i, -0.1 * i}, 100));
+    }
+    const Cast by_item = cast_in_tile(gpu, 1, asked);
+    const Cast cast = cast_in_tile(gpu, 32, asked);
+    EXPECT_EQ(cast.words, by_item.words);
+    const ShadowCounts &c = cast.counts, &of_item = by_item.counts;
+    EXPECT_EQ(c.shafts, of_item.shafts);
+    EXPECT_GT(c.shafts, asked.lights.size()) << "of several clusters";
+    EXPECT_EQ(c.rays, of_item.rays);
+    EXPECT_EQ(c.seen, of_item.seen);
+    EXPECT_LT(0u, c.seen);
+    EXPECT_LT(c.seen, c.rays);
+    EXPECT_EQ(c.nodes, (3 + kLeafNodes) * c.shafts) << "each once";
+    EXPECT_EQ(c.triangles, kLeafNodes * kLeaves * c.shafts) << "each once";
+}
+
+}  // namespace
+}  // namespace kilolux
