@@ -80,9 +80,9 @@ static inline uint make_rays(ClusterCast cast, AreaPixels from, ShadowLight ligh
 }
 
 // The item's triangle, if it may hide a target.
-static inline void set_up_corners(const FV3* v, ShadowLight light, Shaft shaft, uint child,
+static inline void set_up_corners(const FV3* v, ShadowLight light, uint child,
                                   local GroupWalk* walk) {
-    if (!lane_any(may_part(shaft, light, v))) return;
+    if (!lane_any(may_part(walk->shaft, light, v))) return;
     LaneBoxes box = boxes_of(v);
     local float4* to = walk->forms[atomic_inc(&walk->tested)];
     for (uint i = 0; i < 3; ++i) to[i] = (float4)(v[i].x, v[i].y, v[i].z, as_float(child));

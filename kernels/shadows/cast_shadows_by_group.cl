@@ -12,7 +12,8 @@
 // Points that an item tests at once, on forms that it loads once.
 #define POINTS_AT_ONCE 2u  // lit_of_points() chooses between two
 
-// The points of a cluster, for the items to share.
+// The points of a cluster, for the items to share. No item still reads the last cluster's:
+// cast_light() has a barrier after its tests.
 static inline void share_points(View view, global const float* origins, uint tile,
                                 global const uchar* order, uint first, uint end,
                                 local GroupWalk* walk) {
@@ -46,7 +47,7 @@ static inline void set_up_found(ShadowScene scene, ShadowLight light, uint child
     load_casters(scene, &child, v);
 #if AREA_SHADOWS
     if (light.is_area) {
-        set_up_corners(v, light, walk->shaft, child, walk);
+        set_up_corners(v, light, child, walk);
         return;
     }
 #endif
@@ -197,7 +198,8 @@ static inline void store_counts(const ShadowPoints* counted, local GroupWalk* wa
 #endif
 }
 
-// Clears the bits of the item's points that a triangle hides from the light.
+// Clears the bits of the item's points that a triangle hides from the light. walk->box must be
+// complete.
 static inline void cast_shadows_of_group(ShadowScene scene, ShadowLight light,
                                          local GroupWalk* walk, uint* lit, ShadowPoints* counted) {
     if (this_item() == 0u) {
@@ -224,16 +226,16 @@ static inline void cast_shadows_of_group(ShadowScene scene, ShadowLight light,
     }
 }
 
-// Bits of four bytes that are 0 or 1 each, the lowest first.
+// Packs four bytes, each 0 or 1, into bits 0 .. 3; the lowest byte becomes bit 0.
 static inline uint bits_of_bytes(uint bytes) { return bytes * 0x01020408u >> 24; }
 
 // Words of the cluster's flags: an item writes a byte at a time.
 static inline void store_words(uint first, uint end, local GroupWalk* walk, global uint* words) {
     uint count = shadow_words(first, end);
-    uint from = first / 32u * 8u;  // the word's flags
+    local const uint* first_flags = walk->flags + first / 32u * 8u;
     for (uint i = this_item(); i < count * 4u; i += GROUP) {
-        local const uint* flags = walk->flags + from + 2u * i;
-        uint bits = bits_of_bytes(flags[0]) | bits_of_bytes(flags[1]) << 4;
+        local const uint* eight = first_flags + 2u * i;
+        uint bits = bits_of_bytes(eight[0]) | bits_of_bytes(eight[1]) << 4;
 #if PICKED_ONLY
         ((global uchar*)words)[i] &= (uchar)~bits;
 #else
@@ -292,6 +294,7 @@ static inline void cast_light(ClusterCast cast, uint j, local GroupWalk* walk,
     barrier(CLK_LOCAL_MEM_FENCE);  // the last light is done
     begin_walk(walk);
     empty_box(&walk->box);
+    // Of all places: store_words() reads whole words.
     for (uint i = this_item(); i < FINE_TILE_PIXELS / 4u; i += GROUP) walk->flags[i] = 0u;
     barrier(CLK_LOCAL_MEM_FENCE);  // empty before any adds to it
     gather_faced(cast, light, words, walk);

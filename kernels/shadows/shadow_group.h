@@ -41,7 +41,8 @@ typedef struct GroupRays {
 } GroupRays;
 #endif
 
-// The memory that the items share.
+// The memory that the items share. Groups of 128 with area lights and COUNT_SHADOWS leave 300 bytes
+// of the 32 KiB that OpenCL promises.
 typedef struct GroupWalk {
     uint stack[SHADOW_STACK];
     uint found[GROUP_FOUND];
@@ -55,7 +56,7 @@ typedef struct GroupWalk {
     // The cluster's points by their places in the tile's order: positions [m] and packed normals.
     float x[FINE_TILE_PIXELS], y[FINE_TILE_PIXELS], z[FINE_TILE_PIXELS];
     float normal[FINE_TILE_PIXELS];
-    // 1 where lit, a byte for each place.
+    // A byte for each place, 1 where lit; four to a uint.
     uint flags[FINE_TILE_PIXELS / 4];
     // Places of the points that face the light, in any order, and their number.
     uchar places[FINE_TILE_PIXELS];
@@ -64,7 +65,7 @@ typedef struct GroupWalk {
     ShadowCounts counts[GROUP];  // of the items: nodes, triangles and shafts by each for all
 #endif
     GroupBox box;  // of the points that face the light
-    Shaft shaft;   // here, since registers for it would leave room for fewer groups at once
+    Shaft shaft;   // of the walk; in registers it would let fewer groups run at once
 #if AREA_SHADOWS
     GroupRays rays;
 #endif

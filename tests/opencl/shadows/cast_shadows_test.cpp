@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <bit>
-#include <random>
 
 #include "host/certify/synthetic/host_lists.h"
 #include "host/stages/shading/shade.h"

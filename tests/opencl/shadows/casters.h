@@ -29,7 +29,7 @@ inline void set_child(ShadowNode& node, int i, uint child) {
     node.child[i] = child;
 }
 
-/// Buffers with nothing in them, for a test to replace some of.
+/// Buffers of zeros; a test replaces those that it needs.
 inline ShadowCasters no_casters(const Gpu& gpu) {
     const std::vector<uint> none(64, 0);
     ShadowCasters out;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What only the work-group form of cast_shadows does: it takes several nodes and up to a group's
-// triangles at once. It gives the bits and counts of the form by work-items. Runs under oclgrind,
-// since PoCL does not run that form.
+// triangles at once. Bits, walks, rays and seen rays are those of the form by work-items. Runs
+// under oclgrind.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -13,7 +13,7 @@
 namespace kilolux {
 namespace {
 
-struct Cast {
+struct CastResult {
     std::vector<uint> words;
     ShadowCounts counts{};
 };
@@ -23,11 +23,11 @@ struct CastCase {
     bool has_masks = false;
     uint levels = 0;  // 0: not known
     uint slices = 1;  // of the one tile's depth
-    std::vector<Light> lights;
+    std::vector<Light> lights{};
 };
 
-// Of a picture of one tile.
-Cast cast_in_tile(const Gpu& gpu, int group, const CastCase& asked) {
+// The shadows of a picture of one tile by groups of `group` items; 1: by single items.
+CastResult cast_in_tile(const Gpu& gpu, int group, const CastCase& asked) {
     Tuning tuning = default_tuning(gpu.info);
     tuning.shadow_group = group;
     KernelFeatures features;
@@ -75,12 +75,12 @@ void expect_deep_shadows(int group, uint levels, bool are_known) {
     const CastCase asked{.casters = deep_casters(gpu, levels),
                          .levels = are_known ? levels : 0,
                          .lights = {point_light({0, 0, -1}, 100)}};
-    const Cast cast = cast_in_tile(gpu, group, asked);
-    EXPECT_GT(cast.counts.rays, 0u);
-    EXPECT_EQ(cast.counts.seen, 0u);
-    for (const uint word : cast.words) EXPECT_EQ(word, 0u);
-    EXPECT_EQ(cast.counts.rays, cast_in_tile(gpu, 1, asked).counts.rays)
-        << "of a cluster with more points than items";
+    const CastResult by_group = cast_in_tile(gpu, group, asked);
+    EXPECT_GT(by_group.counts.rays, 0u);
+    EXPECT_EQ(by_group.counts.seen, 0u);
+    for (const uint word : by_group.words) EXPECT_EQ(word, 0u);
+    EXPECT_EQ(by_group.counts.rays, cast_in_tile(gpu, 1, asked).counts.rays)
+        << "each point has one ray";
 }
 
 TEST(EveryKernel, DeepShadowsByGroup) {
@@ -91,10 +91,10 @@ TEST(EveryKernel, DeepShadowsByGroup) {
     expect_deep_shadows(128, 10, false);
 }
 
-constexpr uint kLeafNodes = 4, kLeaves = 12;  // of each
+constexpr uint kLeafNodes = 4, kLeavesOfNode = 12;
 
-// A root, two nodes and four with twelve small triangles each, of which every third has alpha from
-// 0 to 1.
+// A root, two nodes and four with twelve small triangles each. Every third triangle has a mask:
+// alpha 0 at one corner and 1 at the others.
 ShadowCasters crowded_casters(const Gpu& gpu) {
     std::mt19937 random(11);
     std::uniform_real_distribution<float> across(-3.0f, 3.0f), depth(-7.0f, -2.0f),
@@ -106,8 +106,8 @@ ShadowCasters crowded_casters(const Gpu& gpu) {
     std::vector<MaskedCaster> masked;
     for (uint i = 0; i < kLeafNodes; ++i) {
         set_child(nodes[1 + i / 2], static_cast<int>(i % 2), 3 + i);
-        for (uint leaf = 0; leaf < kLeaves; ++leaf) {
-            const uint number = i * kLeaves + leaf;
+        for (uint leaf = 0; leaf < kLeavesOfNode; ++leaf) {
+            const uint number = i * kLeavesOfNode + leaf;
             const float x = across(random), y = across(random), z = depth(random);
             for (int corner = 0; corner < 3; ++corner) {
                 triangles.insert(triangles.end(),
@@ -133,25 +133,28 @@ ShadowCasters crowded_casters(const Gpu& gpu) {
     return out;
 }
 
-// More triangles than a group tests at once, some of them with holes, seen from several clusters.
+// More triangles than a group tests at once, some of them with holes, before several clusters.
 TEST(EveryKernel, CrowdedShadowsByGroup) {
     const Gpu gpu = test_gpu(1);
-    CastCase asked{.casters = crowded_casters(gpu), .has_masks = true, .slices = 2, .lights = {}};
-    for (int i = 0; i < 10; ++i) {  // more than a tile has groups
+    CastCase asked{.casters = crowded_casters(gpu), .has_masks = true, .slices = 2};
+    for (int i = 0; i < 10; ++i) {  // more than the 8 groups of a tile
         asked.lights.push_back(point_light({0.4 * i - 2, 1 - 0.2 * i, -0.1 * i}, 100));
     }
-    const Cast by_item = cast_in_tile(gpu, 1, asked);
-    const Cast cast = cast_in_tile(gpu, 32, asked);
-    EXPECT_EQ(cast.words, by_item.words);
-    const ShadowCounts &c = cast.counts, &of_item = by_item.counts;
-    EXPECT_EQ(c.shafts, of_item.shafts);
-    EXPECT_GT(c.shafts, asked.lights.size()) << "of several clusters";
-    EXPECT_EQ(c.rays, of_item.rays);
-    EXPECT_EQ(c.seen, of_item.seen);
-    EXPECT_LT(0u, c.seen);
-    EXPECT_LT(c.seen, c.rays);
-    EXPECT_EQ(c.nodes, (3 + kLeafNodes) * c.shafts) << "each once";
-    EXPECT_EQ(c.triangles, kLeafNodes * kLeaves * c.shafts) << "each once";
+    const CastResult by_item = cast_in_tile(gpu, 1, asked);
+    for (const int group : {32, 64}) {
+        const CastResult by_group = cast_in_tile(gpu, group, asked);
+        EXPECT_EQ(by_group.words, by_item.words) << group;
+        const ShadowCounts& c = by_group.counts;
+        EXPECT_EQ(c.shafts, by_item.counts.shafts);
+        EXPECT_GT(c.shafts, asked.lights.size()) << "of several clusters";
+        EXPECT_EQ(c.rays, by_item.counts.rays);
+        EXPECT_EQ(c.seen, by_item.counts.seen);
+        EXPECT_LT(0u, c.seen);
+        EXPECT_LT(c.seen, c.rays);
+        EXPECT_EQ(c.nodes, (3 + kLeafNodes) * c.shafts) << "each once";
+        EXPECT_LE(c.triangles, kLeafNodes * kLeavesOfNode * c.shafts) << "each once";
+        EXPECT_GT(c.triangles, 32 * c.shafts) << "more than a group of 32 sets up at once";
+    }
 }
 
 }  // namespace
