@@ -91,14 +91,14 @@ TEST(EveryKernel, DeepShadowsByGroup) {
     expect_deep_shadows(128, 10, false);
 }
 
-constexpr uint kLeafNodes = 4, kLeavesOfNode = 12;
+constexpr uint kLeafNodes = 4, kLeavesOfNode = 16;
 
-// A root, two nodes and four with twelve small triangles each. Every third triangle has a mask:
+// A root, two nodes and four with sixteen triangles each. Every second triangle has a mask:
 // alpha 0 at one corner and 1 at the others.
 ShadowCasters crowded_casters(const Gpu& gpu) {
     std::mt19937 random(11);
     std::uniform_real_distribution<float> across(-3.0f, 3.0f), depth(-7.0f, -2.0f),
-        size(-0.8f, 0.8f);
+        size(-1.2f, 1.2f);
     std::vector<ShadowNode> nodes(3 + kLeafNodes, empty_node());
     set_child(nodes[0], 3, 1);
     set_child(nodes[0], 9, 2);
@@ -114,7 +114,7 @@ ShadowCasters crowded_casters(const Gpu& gpu) {
                                  {x + size(random), y + size(random), z + size(random)});
             }
             uint child = SHADOW_LEAF | number;
-            if (leaf % 3 == 0) {
+            if (leaf % 2 == 0) {
                 child = SHADOW_LEAF | SHADOW_MASKED | static_cast<uint>(masked.size());
                 masked.push_back({{}, {}, {0.0f, 1.0f, 1.0f}, number, 0, 0});
             }
@@ -151,8 +151,8 @@ TEST(EveryKernel, CrowdedShadowsByGroup) {
         EXPECT_EQ(c.seen, by_item.counts.seen);
         EXPECT_LT(0u, c.seen);
         EXPECT_LT(c.seen, c.rays);
-        EXPECT_EQ(c.nodes, (3 + kLeafNodes) * c.shafts) << "each once";
-        EXPECT_LE(c.triangles, kLeafNodes * kLeavesOfNode * c.shafts) << "each once";
+        EXPECT_LE(c.nodes, (3 + kLeafNodes) * c.shafts) << "each once at most";
+        EXPECT_LE(c.triangles, kLeafNodes * kLeavesOfNode * c.shafts) << "each once at most";
         EXPECT_GT(c.triangles, 32 * c.shafts) << "more than a group of 32 sets up at once";
     }
 }
