@@ -12,30 +12,6 @@
 // Points that an item tests at once, on forms that it loads once.
 #define POINTS_AT_ONCE 2u  // lit_of_points() chooses between two
 
-// The points of a cluster, for the items to share. No item still reads the last cluster's:
-// cast_light() has a barrier after its tests.
-static inline void share_points(View view, global const float* origins, uint tile,
-                                global const uchar* order, uint first, uint end,
-                                local GroupWalk* walk) {
-    uint plane = view.stride * view.height;
-    for (uint place = first + this_item(); place < end; place += GROUP) {
-        Pixels pixels = pixels_of_tile(view, tile, place, order);
-        walk->x[place] = LOAD_PLANE(FV, origins + ORIGIN_X * plane, pixels);
-        walk->y[place] = LOAD_PLANE(FV, origins + ORIGIN_Y * plane, pixels);
-        walk->z[place] = LOAD_PLANE(FV, origins + ORIGIN_Z * plane, pixels);
-        walk->normal[place] = LOAD_PLANE(FV, origins + ORIGIN_NORMAL * plane, pixels);
-    }
-}
-
-static inline FV3 point_at(local const GroupWalk* walk, uint place) {
-    return fv3(walk->x[place], walk->y[place], walk->z[place]);
-}
-
-// The i-th of the points that face the light; the last one, where there are fewer.
-static inline FV3 faced_point(local const GroupWalk* walk, uint i) {
-    return point_at(walk, walk->places[min(i, walk->faced - 1u)]);
-}
-
 static inline float4 float4_of(ShadowForm form) {
     return (float4)(form.g.x, form.g.y, form.g.z, form.c);
 }

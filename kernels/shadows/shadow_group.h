@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The common part of what a work-group of GROUP items does in cast_shadows_by_group.cl: its shared
-// memory, boxes that it grows together, and its walk through the hierarchy.
+// memory, the points of a cluster, boxes that it grows together, and its walk through the
+// hierarchy.
 #ifndef KILOLUX_DEVICE_SHADOW_GROUP_H
 #define KILOLUX_DEVICE_SHADOW_GROUP_H
 #include "kernels/shadows/cast_shadows.h"
@@ -110,6 +111,30 @@ static inline void grow_box(local GroupBox* box, LaneBox by) {
 static inline float3 box_end(local const int* end) {
     return (float3)(as_float(ordered_bits(end[0])), as_float(ordered_bits(end[1])),
                     as_float(ordered_bits(end[2])));
+}
+
+// The points of a cluster, for the items to share. No item still reads the last cluster's:
+// cast_light() has a barrier after its tests.
+static inline void share_points(View view, global const float* origins, uint tile,
+                                global const uchar* order, uint first, uint end,
+                                local GroupWalk* walk) {
+    uint plane = view.stride * view.height;
+    for (uint place = first + this_item(); place < end; place += GROUP) {
+        Pixels pixels = pixels_of_tile(view, tile, place, order);
+        walk->x[place] = LOAD_PLANE(FV, origins + ORIGIN_X * plane, pixels);
+        walk->y[place] = LOAD_PLANE(FV, origins + ORIGIN_Y * plane, pixels);
+        walk->z[place] = LOAD_PLANE(FV, origins + ORIGIN_Z * plane, pixels);
+        walk->normal[place] = LOAD_PLANE(FV, origins + ORIGIN_NORMAL * plane, pixels);
+    }
+}
+
+static inline FV3 point_at(local const GroupWalk* walk, uint place) {
+    return fv3(walk->x[place], walk->y[place], walk->z[place]);
+}
+
+// The i-th of the points that face the light; the last one, where there are fewer.
+static inline FV3 faced_point(local const GroupWalk* walk, uint i) {
+    return point_at(walk, walk->places[min(i, walk->faced - 1u)]);
 }
 
 static inline global uint* words_of_light(ClusterCast cast, uint j) {
