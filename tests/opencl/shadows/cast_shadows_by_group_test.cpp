@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What only the work-group form of cast_shadows does: it takes several nodes and up to a group's
 // triangles at once. Bits, walks, rays and seen rays are those of the form by work-items. Runs
-// under oclgrind.
+// under oclgrind, by the list of cases in tests/CMakeLists.txt; PoCL would run the form by items.
 #include <gtest/gtest.h>
 
 #include <random>
