@@ -28,15 +28,13 @@ static inline GroupBallot group_ballot(uint flag, uint group, uint turn, local u
     barrier(CLK_LOCAL_MEM_FENCE);
     local uint* last = ballots + (turn + 2u) % 3u * words;
     for (uint i = get_local_id(0); i < words; i += group) last[i] = 0u;
-    GroupBallot out = {0u, 0u, 0u};
+    uint own = mine[bit / 32u];
+    GroupBallot out = {own >> (bit % 32u) & 1u, popcount(own & ((1u << (bit % 32u)) - 1u)), 0u};
     for (uint word = 0; word < words; ++word) {
-        uint bits = mine[word];
-        out.before += word < bit / 32u    ? popcount(bits)
-                      : word == bit / 32u ? popcount(bits & ((1u << (bit % 32u)) - 1u))
-                                          : 0u;
-        out.total += popcount(bits);
+        uint count = popcount(mine[word]);
+        out.before += word < bit / 32u ? count : 0u;
+        out.total += count;
     }
-    out.flag = (mine[bit / 32u] >> (bit % 32u)) & 1u;
     return out;
 }
 #endif

@@ -8,11 +8,13 @@
 #include "kernels/device/group_ballot.h"
 #include "kernels/lists/cull_lights.h"
 
-// The host defines BLOCK, the lights of a block, and SPAN, the blocks of a span.
+// The host defines BLOCK, the lights of a block, SPAN, the blocks of a span, and BLOCK_GROUP, the
+// work-items that find the blocks of a span.
 #define SPAN_LIGHTS (BLOCK * SPAN)
 
+// The extent of no light: joined with another one, it is the other one.
 static inline LightExtent empty_extent(void) {
-    LightExtent e = {1u, 1u, 1u, 0u};  // from 1 to 0
+    LightExtent e = {0xffffu, 0xffffu, 0xffffu, 0u};  // from 65535 to 0
     return e;
 }
 
@@ -22,57 +24,114 @@ static inline uint joined_interval(uint a, uint b) {
 
 // What both hold, and what lies between them.
 static inline LightExtent joined_extent(LightExtent a, LightExtent b) {
-    if (!touches_grid(a)) return b;
-    if (!touches_grid(b)) return a;
     a.columns = joined_interval(a.columns, b.columns);
     a.rows = joined_interval(a.rows, b.rows);
     a.slices = joined_interval(a.slices, b.slices);
     return a;
 }
 
-static inline LightExtent extent_of_all(global const LightExtent* extents, uint first, uint end) {
-    LightExtent all = empty_extent();
-    for (uint i = first; i < end; ++i) all = joined_extent(all, extents[i]);
-    return all;
+// Work-items that share a block.
+#define BLOCK_ITEMS 4u
+#define ITEM_LIGHTS (BLOCK / BLOCK_ITEMS)
+
+// Of the work-items of cull_lights_blocks.
+typedef struct BlockMemory {
+    float jump[BLOCK_GROUP];          // the longest one, from the light before to one of the item's
+    uint light[BLOCK_GROUP];          // the light where it ends
+    LightExtent before[BLOCK_GROUP];  // of the item's lights before the block's longest jump
+    LightExtent after[BLOCK_GROUP];
+} BlockMemory;
+
+// The longest jump to the lights from `first` on: the order of lights jumps between cubes. A block
+// begins with the lights of item `lead`; no jump leads to its first one.
+static inline void find_jump(global const float4* bounds, uint first, uint end, uint lead,
+                             local BlockMemory* memory) {
+    uint item = get_local_id(0), light = end;
+    float longest = 0.0f;
+    if (first < end) {
+        float3 last = bounds[item == lead ? first : first - 1u].xyz;
+#pragma unroll
+        for (uint i = 0; i < ITEM_LIGHTS; ++i) {
+            float3 at = bounds[min(first + i, end - 1u)].xyz;
+            float3 step = at - last;
+            float jump = dot(step, step);
+            light = jump > longest ? first + i : light;
+            longest = max(longest, jump);
+            last = at;
+        }
+    }
+    memory->jump[item] = longest;
+    memory->light[item] = light;
 }
 
-// The light that is farthest from the one before it: the order of lights jumps between cubes.
-static inline uint after_jump(global const float4* bounds, uint first, uint end) {
-    uint place = first;
+// Where the longest jump of the block of items from `lead` on ends.
+static inline uint after_jump(uint lead, uint end, local const BlockMemory* memory) {
+    uint light = end;
     float longest = 0.0f;
-    float3 last = bounds[first].xyz;
-    for (uint i = first + 1u; i < end; ++i) {
-        float3 at = bounds[i].xyz;
-        float3 step = at - last;
-        float jump = dot(step, step);
-        place = jump > longest ? i : place;
-        longest = max(longest, jump);
-        last = at;
+    for (uint i = lead; i < lead + BLOCK_ITEMS; ++i) {
+        light = memory->jump[i] > longest ? memory->light[i] : light;
+        longest = max(longest, memory->jump[i]);
     }
-    return place;
+    return light;
+}
+
+static inline void join_lights(global const LightExtent* extents, uint first, uint end, uint jump,
+                               local BlockMemory* memory) {
+    LightExtent before = empty_extent(), after = empty_extent();
+    if (first < end) {
+#pragma unroll
+        for (uint i = 0; i < ITEM_LIGHTS; ++i) {
+            LightExtent e = extents[min(first + i, end - 1u)];
+            if (!touches_grid(e)) e = empty_extent();
+            before = joined_extent(before, first + i < jump ? e : empty_extent());
+            after = joined_extent(after, first + i < jump ? empty_extent() : e);
+        }
+    }
+    memory->before[get_local_id(0)] = before;
+    memory->after[get_local_id(0)] = after;
 }
 
 static inline uint span_count(uint light_count) {
     return (light_count + SPAN_LIGHTS - 1u) / SPAN_LIGHTS;
 }
 
-// One work-group takes one span.
+// One work-group of BLOCK_GROUP items takes one span.
 kernel void cull_lights_blocks(LIGHT_ARGS(const),
-                               global LightExtent* blocks,          // out [spans][SPAN][2]
-                               global LightExtent* restrict spans,  // out [spans]
-                               global uint* restrict work_count) {  // out [1]: 0
+                               global LightExtent* restrict blocks,  // out [spans][SPAN][2]
+                               global LightExtent* restrict spans,   // out [spans]
+                               global uint* restrict work_count) {   // out [1]: 0
+    local BlockMemory memory;
     uint span = get_group_id(0);
-    uint first_block = span * SPAN;
-    for (uint b = get_local_id(0); b < SPAN; b += get_local_size(0)) {
-        uint first = min((first_block + b) * BLOCK, light_count);
-        uint end = min(first + BLOCK, light_count);
-        uint jump = first < end ? after_jump(bounds, first, end) : end;
-        blocks[2u * (first_block + b)] = extent_of_all(extents, first, jump);
-        blocks[2u * (first_block + b) + 1u] = extent_of_all(extents, jump, end);
+    uint item = get_local_id(0), lead = item / BLOCK_ITEMS * BLOCK_ITEMS;
+    LightExtent part = empty_extent();
+    for (uint b = item / BLOCK_ITEMS; b < SPAN; b += BLOCK_GROUP / BLOCK_ITEMS) {
+        uint block = span * SPAN + b;
+        uint first = block * BLOCK + (item - lead) * ITEM_LIGHTS;
+        find_jump(bounds, first, light_count, lead, &memory);
+        barrier(CLK_LOCAL_MEM_FENCE);  // the jumps are there, and the extents used up
+        join_lights(extents, first, light_count, after_jump(lead, light_count, &memory), &memory);
+        barrier(CLK_LOCAL_MEM_FENCE);  // the extents are there, and the jumps used up
+        if (item == lead) {
+            LightExtent before = memory.before[item], after = memory.after[item];
+            for (uint i = item + 1u; i < item + BLOCK_ITEMS; ++i) {
+                before = joined_extent(before, memory.before[i]);
+                after = joined_extent(after, memory.after[i]);
+            }
+            blocks[2u * block] = before;
+            blocks[2u * block + 1u] = after;
+            part = joined_extent(part, joined_extent(before, after));
+        }
     }
-    barrier(CLK_GLOBAL_MEM_FENCE);
-    if (get_local_id(0) != 0) return;
-    spans[span] = extent_of_all(blocks, 2u * first_block, 2u * (first_block + SPAN));
+    barrier(CLK_LOCAL_MEM_FENCE);  // the last extents are used up
+    memory.before[item] = part;
+    for (uint step = BLOCK_GROUP / 2u; step > 0u; step /= 2u) {
+        barrier(CLK_LOCAL_MEM_FENCE);
+        if (item < step) {
+            memory.before[item] = joined_extent(memory.before[item], memory.before[item + step]);
+        }
+    }
+    if (item != 0u) return;
+    spans[span] = memory.before[0];
     if (span == 0u) work_count[0] = 0u;
 }
 

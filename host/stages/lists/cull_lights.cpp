@@ -2,6 +2,7 @@
 #include "host/stages/lists/cull_lights.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace kilolux {
 namespace {
@@ -26,11 +27,18 @@ std::string_view program_name(const Tuning& tuning) {
     return tuning.cull_group == 1 ? "cull_lights_by_item" : "cull_lights_by_group";
 }
 
-BuildOptions cull_options(const Tuning& tuning, const KernelFeatures& features) {
+// Work-items that find the blocks of a span: few lights each, which they load at once.
+int block_group(const Gpu& gpu) {
+    const auto most = static_cast<unsigned>(gpu.info.max_work_group);
+    return std::min(256, static_cast<int>(std::bit_floor(most)));
+}
+
+BuildOptions cull_options(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features) {
     return BuildOptions()
         .define("GROUP", tuning.cull_group)
         .define("BLOCK", kLightsOfBlock)
         .define("SPAN", kBlocksOfSpan)
+        .define("BLOCK_GROUP", block_group(gpu))
         .define("HAS_SPOT_LIGHTS", features.spot_lights)
         .define("LIGHT_INDEX", light_index_type(features));
 }
@@ -40,7 +48,8 @@ BuildOptions cull_options(const Tuning& tuning, const KernelFeatures& features) 
 CullLights::CullLights(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
     : tuning_(tuning),
       groups_(kGroupsOfUnit * static_cast<std::size_t>(gpu.info.compute_units)),
-      program_(build_program(gpu, program_name(tuning), cull_options(tuning, features))),
+      block_group_(block_group(gpu)),
+      program_(build_program(gpu, program_name(tuning), cull_options(gpu, tuning, features))),
       count_(gpu, program_, kCullLightsStage, "cull_lights_count"),
       offset_(gpu, program_, kCullLightsStage, "cull_lights_offset"),
       fill_(gpu, program_, kCullLightsStage, "cull_lights_fill"),
@@ -106,7 +115,7 @@ CoarseLists CullLights::enqueue(const PreparedLights& lights, const ClusterBoxes
     const std::size_t spans = span_count(lights.count);
     const auto chunks_of_cluster = static_cast<uint>(chunks);
     Blocks& by = *blocks_;
-    by.cull_blocks.enqueue(groups(spans, tuning_.cull_group), timer, lights,
+    by.cull_blocks.enqueue(groups(spans, block_group_), timer, lights,
                            by.blocks.reserve(2 * spans * kBlocksOfSpan), by.spans.reserve(spans),
                            by.work_count.get());
     const DeviceArray<uint> work = by.work.reserve(grid.cluster_count);

@@ -71,6 +71,7 @@ class CullLights {
 
     Tuning tuning_;
     std::size_t groups_;  // that share the clusters
+    int block_group_;     // work-items that find the blocks of a span
     KernelProgram program_;
     Kernel count_, offset_, fill_, brute_force_;
     std::optional<Blocks> blocks_;  // of work-groups
