@@ -12,6 +12,9 @@
 #define SLICE_WORDS (64 * 256 / 32)
 // Words of a bit for each pixel of a tile.
 #define PIXEL_WORDS (FINE_TILE_PIXELS / 32)
+// Clusters that a tile fills at once: few tiles have more, and groups need little local memory, so
+// that a device holds many of them.
+#define AT_ONCE 32
 
 static inline uint strip_of_round(uint round) { return round * GROUP + (uint)get_local_id(0); }
 
@@ -82,23 +85,24 @@ kernel void bin_pixels_count(GBUFFER_ARGS, ClusterGrid grid,
     }
 }
 
-// The clusters of a tile while they are built.
+// Some clusters of a tile while they are built, from number `begin` on; background is the last one.
 typedef struct TileClusters {
-    int low[FINE_TILE_PIXELS][3];  // of the boxes, as ordered_bits
-    int high[FINE_TILE_PIXELS][3];
-    // Bits of each cluster's pixels; then those of background.
-    uint pixels[FINE_TILE_PIXELS + 1][PIXEL_WORDS];
-    uint first[FINE_TILE_PIXELS + 1];  // where their pixels begin in the tile's order
-    uint slice[FINE_TILE_PIXELS];
+    int low[AT_ONCE][3];  // of the boxes, as ordered_bits
+    int high[AT_ONCE][3];
+    uint pixels[AT_ONCE][PIXEL_WORDS];  // a bit for each pixel of a cluster
+    uint first[AT_ONCE];                // where their pixels begin in the tile's order
+    uint slice[AT_ONCE];
+    uint end;  // where the pixels of the next clusters begin
 } TileClusters;
 
 // Floats' order, negative ones included, as integers'; its own inverse on bits.
 static inline int ordered_bits(int bits) { return bits ^ (bits >> 31 & 0x7fffffff); }
 
+// count: of the clusters, background included.
 static inline void clear_clusters(local TileClusters* tile, uint count) {
-    for (uint i = get_local_id(0); i <= count; i += GROUP) {
+    for (uint i = get_local_id(0); i < count; i += GROUP) {
         for (uint word = 0; word < PIXEL_WORDS; ++word) tile->pixels[i][word] = 0;
-        for (uint axis = 0; i < count && axis < 3; ++axis) {
+        for (uint axis = 0; axis < 3; ++axis) {
             tile->low[i][axis] = ordered_bits(as_int(Z_UNBOUNDED));
             tile->high[i][axis] = ordered_bits(as_int(-Z_UNBOUNDED));
         }
@@ -122,6 +126,30 @@ static inline void end_run(Run run, local TileClusters* tile) {
     }
 }
 
+// Ends the runs of all items. They join in pairs first: where a tile is one cluster, one is left.
+// runs: [GROUP].
+static inline void end_runs(Run run, local Run* runs, local TileClusters* tile) {
+    uint item = get_local_id(0);
+    runs[item] = run;
+    for (uint count = GROUP, step; count > 1u; count = step) {
+        step = (count + 1u) / 2u;
+        barrier(CLK_LOCAL_MEM_FENCE);  // all that the step before joined is there
+        if (item + step < count) {
+            Run mine = runs[item], other = runs[item + step];
+            if (mine.cluster == other.cluster) {
+                for (uint axis = 0; axis < 3; ++axis) {
+                    mine.low[axis] = min(mine.low[axis], other.low[axis]);
+                    mine.high[axis] = max(mine.high[axis], other.high[axis]);
+                }
+                runs[item] = mine;
+            } else {
+                end_run(other, tile);
+            }
+        }
+    }
+    if (item == 0u) end_run(runs[0], tile);
+}
+
 static inline Run add_to_run(Run run, uint cluster, const float* position,
                              local TileClusters* tile) {
     bool goes_on = run.cluster == cluster;
@@ -135,22 +163,47 @@ static inline Run add_to_run(Run run, uint cluster, const float* position,
     return run;
 }
 
-// A strip's pixels join their clusters; background pixels have number `count`.
-static inline Run add_strip(Run run, GBuffer g, Pixels at, UV slices, uint pixel,
-                            local const uint* seen, uint count, local TileClusters* tile) {
-    FV3 p = load_position(g, at, view_depth(g.view, at.x, at.y, load_depth01(g, at)));
+// A strip that a work-item has.
+typedef struct Strip {
+    uint pixel;  // the first one of the tile's
     uint slice[VW];
+    uint number[VW];  // of the pixels' clusters; of background pixels the tile's count
+} Strip;
+
+static inline Strip numbered_strip(uint pixel, UV slices, local const uint* seen, uint count) {
+    Strip strip;
+    strip.pixel = pixel;
+    lane_store(slices, strip.slice);
+    for (uint i = 0; i < VW; ++i) {
+        uint slice = strip.slice[i];
+        strip.number[i] = i > 0u && slice == strip.slice[i - 1u] ? strip.number[i - 1u]
+                          : slice == NO_SLICE                    ? count
+                                                                 : cluster_of(seen, slice);
+    }
+    return strip;
+}
+
+// A strip's pixels join those of their clusters that are at hand.
+static inline Run add_strip(Run run, GBuffer g, Pixels at, const Strip* strip, uint begin,
+                            local TileClusters* tile) {
+    FV3 p = load_position(g, at, view_depth(g.view, at.x, at.y, load_depth01(g, at)));
     float x[VW], y[VW], z[VW];
-    lane_store(slices, slice);
     lane_store(p.x, x);
     lane_store(p.y, y);
     lane_store(p.z, z);
-    for (uint lane = 0; lane < VW; ++lane) {
-        bool in_one = slice[lane] != NO_SLICE;
-        uint cluster = in_one ? cluster_of(seen, slice[lane]) : count;
-        atomic_or(&tile->pixels[cluster][pixel / 32], 1u << (pixel % 32 + lane));
-        float position[3] = {x[lane], y[lane], z[lane]};
-        if (in_one) run = add_to_run(run, cluster, position, tile);
+    uint bits = 0u;  // of neighbours in one cluster
+    for (uint i = 0; i < VW; ++i) {
+        uint cluster = strip->number[i] - begin;
+        if (cluster >= AT_ONCE) continue;
+        bits |= 1u << (strip->pixel % 32 + i);
+        if (i + 1u == VW || strip->number[i + 1u] != strip->number[i]) {
+            atomic_or(&tile->pixels[cluster][strip->pixel / 32], bits);
+            bits = 0u;
+        }
+        if (strip->slice[i] == NO_SLICE) continue;
+        if (run.cluster != cluster) tile->slice[cluster] = strip->slice[i];
+        float position[3] = {x[i], y[i], z[i]};
+        run = add_to_run(run, cluster, position, tile);
     }
     return run;
 }
@@ -161,20 +214,12 @@ static inline uint pixels_of(local const uint* words) {
     return sum;
 }
 
-// Slices and places of all clusters, by one work-item.
-static inline void number_clusters(ClusterGrid grid, local const uint* seen,
-                                   local TileClusters* tile) {
-    uint cluster = 0;
-    uint place = 0;
-    for (uint word = 0; word < slice_words(grid); ++word) {
-        for (uint bits = seen[word]; bits != 0u; bits &= bits - 1u) {
-            tile->slice[cluster] = word * 32 + 31u - clz(bits & -bits);
-            tile->first[cluster] = place;
-            place += pixels_of(tile->pixels[cluster]);
-            ++cluster;
-        }
+// Where the pixels of each cluster begin, by one work-item.
+static inline void place_clusters(local TileClusters* tile, uint count) {
+    for (uint i = 0; i < count; ++i) {
+        tile->first[i] = tile->end;
+        tile->end += pixels_of(tile->pixels[i]);
     }
-    tile->first[cluster] = place;
 }
 
 static inline ActiveCluster finished_cluster(local const TileClusters* tile, uint i) {
@@ -194,13 +239,13 @@ static inline ActiveCluster finished_cluster(local const TileClusters* tile, uin
     return c;
 }
 
-// Puts a strip's pixels at their places in the tile's order.
-static inline void place_strip(UV slices, uint pixel, local const uint* seen, uint count,
-                               local const TileClusters* tile, global uchar* order) {
-    uint slice[VW];
-    lane_store(slices, slice);
+// Puts those of a strip's pixels whose clusters are at hand at their places in the tile's order.
+static inline void place_strip(const Strip* strip, uint begin, local const TileClusters* tile,
+                               global uchar* order) {
+    uint pixel = strip->pixel;
     for (uint lane = 0; lane < VW; ++lane) {
-        uint cluster = slice[lane] != NO_SLICE ? cluster_of(seen, slice[lane]) : count;
+        uint cluster = strip->number[lane] - begin;
+        if (cluster >= AT_ONCE) continue;
         uint place = tile->first[cluster];
         for (uint word = 0; word < pixel / 32; ++word)
             place += popcount(tile->pixels[cluster][word]);
@@ -212,6 +257,7 @@ static inline void place_strip(UV slices, uint pixel, local const uint* seen, ui
 kernel void bin_pixels_fill(GBUFFER_ARGS, CLUSTER_ARGS()) {  // out: clusters and order
     local uint seen[SLICE_WORDS];
     local TileClusters made;
+    local Run runs[GROUP];
     uint tiles_x = fine_tiles_x(view);
     uint tile = get_group_id(0);
     uint tile_x = tile % tiles_x;
@@ -220,29 +266,36 @@ kernel void bin_pixels_fill(GBUFFER_ARGS, CLUSTER_ARGS()) {  // out: clusters an
     GBuffer g = GBUFFER_OF_ARGS;
     UV slices[ROUNDS];
     load_slices(g, grid, tile_x, tile_y, slices, seen);
-    clear_clusters(&made, count);
-    barrier(CLK_LOCAL_MEM_FENCE);  // cleared before any grows
-    uint strips = rows_of_tile(view, tile_y) * STRIPS;
-    Run run;
-    run.cluster = NO_CLUSTER;
+    uint end = rows_of_tile(view, tile_y) * STRIPS;
+    Strip strips[ROUNDS];
     for (uint round = 0; round < ROUNDS; ++round) {
-        uint strip = strip_of_round(round);
-        if (strip < strips)
-            run = add_strip(run, g, strip_pixels(view, tile_x, tile_y, strip), slices[round],
-                            strip * VW, seen, count, &made);
+        strips[round] = numbered_strip(strip_of_round(round) * VW, slices[round], seen, count);
     }
-    end_run(run, &made);
-    barrier(CLK_LOCAL_MEM_FENCE);  // all pixels have joined
-    if (get_local_id(0) == 0) number_clusters(grid, seen, &made);
-    barrier(CLK_LOCAL_MEM_FENCE);  // numbered before any is written
-    for (uint i = get_local_id(0); i < count; i += GROUP) {
-        if (cluster_offsets[tile] + i < cluster_capacity)
-            clusters[cluster_offsets[tile] + i] = finished_cluster(&made, i);
-    }
-    for (uint round = 0; round < ROUNDS; ++round) {
-        uint strip = strip_of_round(round);
-        if (strip < strips)
-            place_strip(slices[round], strip * VW, seen, count, &made,
-                        order + tile * FINE_TILE_PIXELS);
+    if (get_local_id(0) == 0) made.end = 0u;
+    for (uint begin = 0; begin <= count; begin += AT_ONCE) {
+        uint here = min(count + 1u - begin, (uint)AT_ONCE);  // with background
+        clear_clusters(&made, here);
+        barrier(CLK_LOCAL_MEM_FENCE);  // cleared before any grows
+        Run run;
+        run.cluster = NO_CLUSTER;
+        for (uint round = 0; round < ROUNDS; ++round) {
+            uint strip = strip_of_round(round);
+            if (strip < end)
+                run = add_strip(run, g, strip_pixels(view, tile_x, tile_y, strip), &strips[round],
+                                begin, &made);
+        }
+        end_runs(run, runs, &made);
+        barrier(CLK_LOCAL_MEM_FENCE);  // all pixels have joined
+        if (get_local_id(0) == 0) place_clusters(&made, here);
+        barrier(CLK_LOCAL_MEM_FENCE);  // placed before any is written
+        for (uint i = begin + (uint)get_local_id(0); i < min(count, begin + AT_ONCE); i += GROUP) {
+            if (cluster_offsets[tile] + i < cluster_capacity)
+                clusters[cluster_offsets[tile] + i] = finished_cluster(&made, i - begin);
+        }
+        for (uint round = 0; round < ROUNDS; ++round) {
+            if (strip_of_round(round) < end)
+                place_strip(&strips[round], begin, &made, order + tile * FINE_TILE_PIXELS);
+        }
+        barrier(CLK_LOCAL_MEM_FENCE);  // all are written before the next ones are cleared
     }
 }
