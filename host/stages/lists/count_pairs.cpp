@@ -6,9 +6,9 @@
 namespace kilolux {
 namespace {
 
-// Work-items that sum clusters: enough to fill a GPU, few enough for one work-group to join.
-constexpr uint kShares = 1024;
-// Sums of 32 bytes in local memory; divides kShares.
+// Work-groups that sum clusters: enough to fill a GPU, few enough for one of them to join.
+constexpr uint kShares = 256;
+// Sums of 32 bytes in local memory.
 constexpr int kLargestGroup = 64;
 constexpr std::size_t kSumsOfShare = 4;  // a ulong4
 
@@ -29,10 +29,10 @@ CountPairs::CountPairs(const Gpu& gpu, const Tuning& tuning)
 DeviceArray<PairCounts> CountPairs::enqueue(const ListTotals& totals,
                                             const ActiveClusters& clusters, bool sums,
                                             StageTimer& timer) {
-    const WorkSize size = items(kShares, group_);
     const auto share_count = sums ? kShares : 0u;
     if (sums) {
-        sum_shares_.enqueue(size, timer, clusters, totals.active_clusters, shares_.get());
+        sum_shares_.enqueue(groups(kShares, group_), timer, clusters, totals.active_clusters,
+                            shares_.get());
     }
     gather_.enqueue(groups(1, group_), timer, totals.coarse_pairs, totals.active_clusters,
                     totals.refine_tests, shares_.get(), share_count, counts_.get());
