@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "host/gpu/flow.h"
 #include "host/gpu/stage_info.h"
@@ -34,8 +35,11 @@ class RefineLights {
 
  private:
     Tuning tuning_;
+    int group_;  // work-items that share a tile
     KernelProgram program_;
     Kernel reserve_, refine_;
+    std::optional<Kernel> make_blocks_;  // of long lists
+    GrowingArray<float4> blocks_;        // two a block
     CountedList lists_;
 };
 

@@ -49,7 +49,10 @@ void expect_list(const ActiveCluster& box, std::span<const uint> found,
     ASSERT_EQ(next, found.size()) << "not a part of the coarse list in its order";
 }
 
-void expect_refined(const Gpu& gpu, const Tuning& tuning, std::uint32_t light_count) {
+void expect_refined(const Gpu& gpu, const Tuning& tuning, std::uint32_t light_count,
+                    int index_bits) {
+    KernelFeatures features;
+    features.light_index_bits = index_bits;
     const View view = make_view(ViewShape{97, 65});
     const ClusterGrid grid = make_cluster_grid(kRefinedRequest, view.width, view.height);
     RandomLightOptions mix;
@@ -58,8 +61,8 @@ void expect_refined(const Gpu& gpu, const Tuning& tuning, std::uint32_t light_co
     const GBuffer gbuffer =
         upload_gbuffer(gpu, make_synthetic(view, {}, slanted_depth(0.4, 60.0, 97)));
     const ListedLights device =
-        list_everywhere(gpu, tuning, {}, {gbuffer, upload_lights(gpu, lights), grid});
-    const HostLists lists = download_lists(gpu, {}, device);
+        list_everywhere(gpu, tuning, features, {gbuffer, upload_lights(gpu, lights), grid});
+    const HostLists lists = download_lists(gpu, features, device);
     const auto bounds = download<float4>(gpu, device.lights.bounds, lights.size());
     for (uint tile = 0; tile + 1 < lists.cluster_offsets.size(); ++tile) {
         for (uint i = lists.cluster_offsets[tile]; i < lists.cluster_offsets[tile + 1]; ++i) {
@@ -76,11 +79,13 @@ TEST(RefineLights, AgreesWithDoubleForAnyCountAndGroup) {
     const Gpu gpu = test_gpu();
     for (const int group : {1, 3, 64}) {
         for (const std::uint32_t count : {0u, 1u, 7u, 8u, 9u, 511u, 512u, 513u, 2500u}) {
-            SCOPED_TRACE("group " + std::to_string(group) + ", " + std::to_string(count) +
-                         " lights");
-            Tuning tuning = default_tuning(gpu.info);
-            tuning.refine_group = group;
-            expect_refined(gpu, tuning, count);
+            for (const int bits : {16, 32}) {  // 32: by blocks
+                SCOPED_TRACE("group " + std::to_string(group) + ", " + std::to_string(count) +
+                             " lights, indices of " + std::to_string(bits) + " bits");
+                Tuning tuning = default_tuning(gpu.info);
+                tuning.refine_group = group;
+                expect_refined(gpu, tuning, count, bits);
+            }
         }
     }
 }
