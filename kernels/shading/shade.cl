@@ -32,6 +32,16 @@ typedef struct LightSource {
 #endif
 } LightSource;
 
+#if STAGE > 0
+// 1 if the work-group's rows have pixels at the places [first, end) of their tile's order, else 0;
+// the same for all of its items.
+static inline uint group_shares(uint first, uint end) {
+    uint rows = get_local_size(1);
+    uint begin = ((uint)get_global_id(1) - (uint)get_local_id(1)) % FINE_TILE * FINE_TILE;
+    return select(0u, 1u, first < begin + rows * FINE_TILE) & select(0u, 1u, begin < end);
+}
+#endif
+
 static inline bool has_lights(LightSource from, uint tile) {
     return has_clusters(from.clusters, tile);
 }
@@ -60,8 +70,19 @@ static inline LightSum source_sum(LightSource from, GBuffer g, ItemPlace at, Lit
     wanted = wanted && has_usable_words(from.word_offsets, from.word_capacity, at.tile,
                                         fine_tile_count(g.view));
 #endif
+#if STAGE > 0
+    uint place = 0u;  // of the cluster's first pixel in the tile's order
+#endif
     FOR_EACH_CLUSTER(i, from.clusters, at.tile) {
         global const ActiveCluster* cluster = from.clusters.clusters + i;
+        uint count = cluster->list_count;
+#if STAGE > 0
+        // The whole group skips a cluster that has none of its pixels. A selection: PoCL 3.1 loses
+        // values that branches made before barriers.
+        uint end = place + cluster->pixel_count;
+        count = select(0u, count, group_shares(place, end));
+        place = end;
+#endif
         MASK mine = lanes_in_cluster(item, from.clusters, i);
         bool any_mine = wanted && lane_any(mine);
 #if LIGHT_GROUPS
@@ -79,8 +100,8 @@ static inline LightSum source_sum(LightSource from, GBuffer g, ItemPlace at, Lit
                                               place_of_item(at.x, at.y));
         set.candidates.mine = mine;
 #endif
-        LightSum lit = sum_lights(parallel, any_mine, p, set, from.lists + cluster->list_begin,
-                                  cluster->list_count);
+        LightSum lit =
+            sum_lights(parallel, any_mine, p, set, from.lists + cluster->list_begin, count);
         if (any_mine) sum = select_sum(mine, lit, sum);
     }
     return sum;

@@ -4,7 +4,7 @@
 //   has_lights()    whether any may reach a tile
 //   source_item()   the pixels of the work-item at (x, y) of the planes
 //   source_sum()    the sum of their light; without `wanted` the work-item only helps to stage
-// A work-group lies within one fine tile; with STAGE > 0 it is a whole one.
+// A work-group lies within one fine tile.
 #ifndef KILOLUX_DEVICE_SHADE_ITEM_H
 #define KILOLUX_DEVICE_SHADE_ITEM_H
 #include "kernels/device/lit_item.h"

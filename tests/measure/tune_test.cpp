@@ -164,8 +164,6 @@ TEST(TuningTrials, GiveTheSameBits) {
         EXPECT_EQ(trial.error, "") << trial.parameter << " " << trial.value;
         parameters.insert(trial.parameter);
     }
-    // Groups that stage lights have 16 rows and no other number.
-    if (result.start.tuning.shade_stage > 0) parameters.insert("shade_rows");
     EXPECT_EQ(parameters.size(), bench.device().is_cpu ? 9u : 10u);
 }
 

@@ -202,8 +202,7 @@ TEST_F(TuningStore, RefusesValuesThatNoKernelTakes) {
     EXPECT_TRUE(refused([](StoredTuning& s) { s.tuning.shade_rows = 32; }));
     EXPECT_TRUE(refused([](StoredTuning& s) { s.tuning.shade_rows = 0; }));
     EXPECT_TRUE(refused([](StoredTuning& s) { s.tuning.shade_prefetch = 2; }));
-    EXPECT_TRUE(refused([](StoredTuning& s) { s.tuning.shade_stage = 64; }))
-        << "staging takes 16 rows";
+    EXPECT_TRUE(refused([](StoredTuning& s) { s.tuning.shade_stage = 3; }));
     EXPECT_TRUE(refused([](StoredTuning& s) { s.tuning.cull_chunks = 0; }));
     EXPECT_TRUE(refused([](StoredTuning& s) { s.tuning.cull_group = 3; }));
     EXPECT_TRUE(refused([](StoredTuning& s) { s.tuning.refine_group = 8192; }))

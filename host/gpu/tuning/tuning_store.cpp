@@ -10,11 +10,12 @@
 namespace kilolux {
 namespace {
 
-constexpr CacheKind kKind = {"tuning", 6};  // 6: another kernel for shadow_group
+constexpr CacheKind kKind = {"tuning", 7};  // 7: shade_stage with any shade_rows
 
 constexpr TuningParameter kParameters[] = {
     {"shade_rows", &Tuning::shade_rows},
     {"shade_stage", &Tuning::shade_stage},
+    {"pbr_lanes", &Tuning::pbr_lanes},
     {"cull_group", &Tuning::cull_group},
     {"cull_chunks", &Tuning::cull_chunks},
     {"refine_group", &Tuning::refine_group},
@@ -62,7 +63,8 @@ bool is_valid(const StoredTuning& stored, const DeviceInfo& device) {
     if (FINE_TILE / stored.lanes * t.shade_rows > largest_group) return false;
     if (t.shade_stage != 0 && (!is_power_of_two(t.shade_stage) || t.shade_stage > kMostStaged))
         return false;
-    if (t.shade_stage != 0 && t.shade_rows != FINE_TILE) return false;
+    if (t.pbr_lanes != 0 && (!is_power_of_two(t.pbr_lanes) || t.pbr_lanes > FINE_TILE))
+        return false;
     if (t.shade_prefetch != 0 && t.shade_prefetch != 1) return false;
     if (t.geometry != 0 && t.geometry != 1) return false;
     constexpr int kMostTile = 128;

@@ -27,8 +27,6 @@ int value_of(const StoredTuning& tuning, const Dimension& dimension) {
 
 StoredTuning with_value(StoredTuning tuning, const Dimension& dimension, int value) {
     (dimension.value ? tuning.tuning.*dimension.value : tuning.lanes) = value;
-    // Work-groups that stage are whole tiles.
-    if (dimension.value == &Tuning::shade_stage && value > 0) tuning.tuning.shade_rows = FINE_TILE;
     return tuning;
 }
 
@@ -53,6 +51,7 @@ std::vector<Dimension> dimensions_of(const DeviceInfo& device, bool shadows) {
         {"lanes", nullptr, {1, 2, 4}},
         {"shade_stage", &Tuning::shade_stage, {0, 32, 64, 128, 256, 512}},
         {"shade_rows", &Tuning::shade_rows, rows},
+        {"pbr_lanes", &Tuning::pbr_lanes, {0, 1, 2, 4}},
         {"cull_chunks",
          &Tuning::cull_chunks,
          {units, 4 * units, 8 * units, 16 * units, 32 * units, 64 * units}},

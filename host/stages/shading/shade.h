@@ -37,6 +37,9 @@ class Shade {
     Radiance enqueue(const LitPixels& lit, StageTimer& timer, const SeenInput& seen = {},
                      const std::optional<DisplayTarget>& display = {});
 
+    /// The rows that the last enqueue() makes one after the other; none if it makes them at once.
+    const std::vector<DisplayRows>& display_rows() const { return display_rows_; }
+
     /// With sampled shadows, of the last enqueue(): the estimated variance of each pixel's
     /// luminance, [height][stride]; undefined for background.
     DeviceArray<float> variance() const { return variance_.get(); }
@@ -45,13 +48,13 @@ class Shade {
     void set_ambient(float ambient) { ambient_ = ambient; }
 
  private:
-    Gpu gpu_;
     Tuning tuning_;
     KernelFeatures features_;
     SurfaceFeatures surfaces_;
     bool candidates_;
     ShadingResources resources_;
     std::map<std::optional<int>, Kernel> kernels_;  // by tone curve; none: for radiance
+    std::vector<DisplayRows> display_rows_;
     GrowingArray<float> variance_;
     float ambient_ = 0.0f;
 };

@@ -1,17 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/shading/shading_resources.h"
 
+#include <algorithm>
+
+#include "kernels/shared/cluster_grid.h"
+
 namespace kilolux {
 namespace {
 
+// The device with the lanes of shading. Kernels of sampled shadows pick lights anew, and need the
+// picks of others to the bit.
+Gpu shading_device(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features) {
+    const bool is_pbr = features.shading == SHADING_PBR && !features.sampled_shadows;
+    return is_pbr && tuning.pbr_lanes > 0 ? gpu.with_lanes(tuning.pbr_lanes) : gpu;
+}
+
+// A work-group has as many work-items whatever the lanes.
+int rows_of_group(const Gpu& device, const Gpu& shading, int rows) {
+    return std::clamp(rows * shading.info.lane_width / device.info.lane_width, 1, FINE_TILE);
+}
+
 // PoCL 3.1 loses values across the barriers of staged work-groups one item wide, which 16 lanes
 // make, and reads through a wild pointer (hard case 17). A CPU gains nothing by staging, and GPUs
-// are not built with that many lanes. A staging group has a work-item for each vector of a tile.
+// are not built with that many lanes.
 Tuning usable(Tuning tuning, const DeviceInfo& device) {
-    const int lanes = device.lane_width;
-    if (lanes >= FINE_TILE || FINE_TILE_PIXELS / lanes > device.max_work_group) {
-        tuning.shade_stage = 0;
-    }
+    if (device.lane_width >= FINE_TILE) tuning.shade_stage = 0;
     return tuning;
 }
 
@@ -32,14 +45,14 @@ double listed_surface_bytes(const StageCounts& c) {
 
 ShadingResources::ShadingResources(const Gpu& gpu, const Tuning& tuning,
                                    const KernelFeatures& features, std::string_view stage)
-    : gpu_(gpu),
-      stage_(stage),
-      tuning_(usable(tuning, gpu.info)),
+    : gpu_(shading_device(gpu, tuning, features)),
+      rows_(rows_of_group(gpu, gpu_, tuning.shade_rows)),
+      tuning_(usable(tuning, gpu_.info)),
       features_(features),
       radiance_(gpu, stage),
       stored_(gpu, stage) {
     if (features.half_light_colors) {
-        store_lights_.emplace(gpu, build_program(gpu, "store_lights", options()), stage,
+        store_lights_.emplace(gpu_, build_program(gpu_, "store_lights", options()), stage,
                               "store_lights");
     }
 }
@@ -56,15 +69,7 @@ BuildOptions ShadingResources::options() const {
 }
 
 WorkSize ShadingResources::work_size(const Kernel& kernel, const View& view) const {
-    if (tuning_.shade_stage == 0) return kernel.pixel_items(view, tuning_.shade_rows);
-    const WorkSize size = kernel.pixel_items(view, FINE_TILE);
-    if (size.local.get()[1] < FINE_TILE) {
-        throw Error(std::string(stage_) +
-                    ": staging lights needs a work-item for each vector of a tile in a group, more "
-                    "than the device allows this kernel: measure a tuning without (kilolux bench "
-                    "--tune)");
-    }
-    return size;
+    return kernel.pixel_items(view, rows_);
 }
 
 PreparedLights ShadingResources::stored_lights(const PreparedLights& lights, StageTimer& timer) {

@@ -20,6 +20,8 @@ class ShadingResources {
     ShadingResources(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
                      std::string_view stage);
 
+    /// With the lanes of shading.
+    const Gpu& gpu() const { return gpu_; }
     BuildOptions options() const;
     WorkSize work_size(const Kernel& kernel, const View& view) const;
 
@@ -30,7 +32,7 @@ class ShadingResources {
 
  private:
     Gpu gpu_;
-    std::string_view stage_;
+    int rows_;  // of a work-group
     Tuning tuning_;
     KernelFeatures features_;
     std::optional<Kernel> store_lights_;  // with half_light_colors
