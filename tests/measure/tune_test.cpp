@@ -164,7 +164,7 @@ TEST(TuningTrials, GiveTheSameBits) {
         EXPECT_EQ(trial.error, "") << trial.parameter << " " << trial.value;
         parameters.insert(trial.parameter);
     }
-    EXPECT_EQ(parameters.size(), bench.device().is_cpu ? 9u : 10u);
+    EXPECT_EQ(parameters.size(), bench.device().is_cpu ? 8u : 11u);
 }
 
 TEST(LightingBenchTest, CountsAsTheRendererDoes) {
