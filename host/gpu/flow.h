@@ -215,12 +215,6 @@ struct Backdrop {
     }
 };
 
-/// Rows of a display whose codes are there when the command is done.
-struct DisplayRows {
-    std::size_t first, count;
-    cl::Event done;
-};
-
 /// Where a display's sRGB codes go, and how radiance becomes codes.
 struct DisplayTarget {
     static constexpr std::size_t kPixelBytes = sizeof(uint);

@@ -103,8 +103,8 @@ bool Kernel::is_first_launch(const cl::NDRange& group) {
 cl::Event Kernel::launch(const WorkSize& size) {
     const WorkSize fitting = fit_groups(size, made().largest_group, stage_);
     cl::Event event;
-    queue_.enqueueNDRangeKernel(made().kernel, size.offset, fitting.global, fitting.local, nullptr,
-                                &event);
+    queue_.enqueueNDRangeKernel(made().kernel, cl::NullRange, fitting.global, fitting.local,
+                                nullptr, &event);
     return event;
 }
 

@@ -21,8 +21,7 @@ namespace kilolux {
 /// The work-items of a launch.
 struct WorkSize {
     cl::NDRange global, local;
-    bool is_fixed = false;    // the kernel depends on the size of its groups
-    cl::NDRange offset = {};  // of the first work-item; empty: none
+    bool is_fixed = false;  // the kernel depends on the size of its groups
 };
 
 /// `count` work-items in groups of `group`, rounded up: the kernel guards the ragged end.
@@ -71,18 +70,15 @@ class Kernel {
 
     /// Enqueues only. Arguments are bundles, buffers, uint, float and structs of kernels/shared; an
     /// optional bundle or buffer that is empty is null. Throws Error with stage and error name, and
-    /// with Gpu::checks_arguments where an argument is not the kernel's parameter. Returns the
-    /// launch's event.
+    /// with Gpu::checks_arguments where an argument is not the kernel's parameter.
     template <typename... Arguments>
-    cl::Event enqueue(const WorkSize& size, StageTimer& timer, const Arguments&... arguments) {
-        return in_stage(stage_, [&] {
+    void enqueue(const WorkSize& size, StageTimer& timer, const Arguments&... arguments) {
+        in_stage(stage_, [&] {
             Setter set{*this, made()};
             (set(arguments), ...);
             take_wait(timer);
             const bool is_first = is_first_launch(size.local);
-            const cl::Event event = launch(size);
-            timer.record(stage_, event, is_first);
-            return event;
+            timer.record(stage_, launch(size), is_first);
         });
     }
 

@@ -27,19 +27,12 @@ CommandSpan moment(std::int64_t time) { return {time, time, time}; }
 
 }  // namespace
 
-StageTimer::Entry& StageTimer::entry_of(std::string_view stage) {
-    const auto entry = std::ranges::find(entries_, stage, &Entry::stage);
-    if (entry != entries_.end()) return *entry;
-    return entries_.emplace_back(Entry{std::string(stage), {}});
-}
-
 void StageTimer::record(std::string_view stage, const cl::Event& event, bool is_first) {
-    entry_of(stage).events.push_back({event, Clock::now()});
+    auto entry = std::find_if(entries_.begin(), entries_.end(),
+                              [&](const Entry& e) { return e.stage == stage; });
+    if (entry == entries_.end()) entry = entries_.insert(entry, Entry{std::string(stage), {}});
+    entry->events.push_back({event, Clock::now()});
     if (is_first) first_launches_.push_back(event);
-}
-
-void StageTimer::record_beside(std::string_view stage, const cl::Event& event) {
-    entry_of(stage).events.push_back({event, Clock::now(), true});
 }
 
 void StageTimer::record_build(Clock::time_point start, Clock::time_point end) {
@@ -63,29 +56,11 @@ void StageTimer::gather() {
     }
 }
 
-// Gives commands of other queues the time after the last command of the queue, one after the other.
-void StageTimer::leave_out_beside() {
-    std::int64_t last = std::numeric_limits<std::int64_t>::min();
-    const auto each = [this](bool beside, const auto& visit) {
-        for (Entry& entry : entries_) {
-            for (Recorded& recorded : entry.events) {
-                if (recorded.beside == beside) visit(*recorded.span);
-            }
-        }
-    };
-    each(false, [&](const CommandSpan& span) { last = std::max(last, span.end); });
-    each(true, [&](CommandSpan& span) {
-        span.start = std::max(span.queued, last);
-        last = span.end = std::max(span.end, span.start);
-    });
-}
-
 std::vector<StageTimer::Time> StageTimer::take() {
     idle_ = {};
     build_ = first_launch_ = 0;
     if (entries_.empty() && host_.empty()) return {};
     gather();
-    leave_out_beside();
     const Clock::time_point now = Clock::now();
     std::vector<Time> times;
     std::vector<CommandSpan> spans;

@@ -22,10 +22,6 @@ class StageTimer {
     /// compile.
     void record(std::string_view stage, const cl::Event& event, bool is_first = false);
 
-    /// The same of a command of another queue that runs beside the others: its time is from the end
-    /// of the last of them on.
-    void record_beside(std::string_view stage, const cl::Event& event);
-
     /// Adds a time in which the host waited for a program, as far as it lies after the last take().
     void record_build(Clock::time_point start, Clock::time_point end);
 
@@ -65,7 +61,6 @@ class StageTimer {
     struct Recorded {
         cl::Event event;
         Clock::time_point time;
-        bool beside = false;                   // of record_beside()
         std::optional<CommandSpan> span = {};  // by gather()
     };
     struct Entry {
@@ -76,8 +71,6 @@ class StageTimer {
         std::string stage;
         HostSpan span;  // on Clock
     };
-    Entry& entry_of(std::string_view stage);
-    void leave_out_beside();
     void add_host_times(std::vector<Time>& times) const;
 
     std::vector<Entry> entries_;

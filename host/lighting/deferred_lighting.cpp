@@ -65,7 +65,7 @@ AllLightsLighting::AllLightsLighting(const Gpu& gpu, const Tuning& tuning,
     if (!features.sampled_shadows) return;
     KernelFeatures unshadowed = features;
     unshadowed.shadows = unshadowed.sampled_shadows = false;
-    unshadowed_.emplace(gpu, tuning, unshadowed);
+    unshadowed_.emplace(gpu, with_device_lanes(tuning), unshadowed);
 }
 
 Radiance AllLightsLighting::enqueue(const LightingInput& input, StageTimer& timer) {

@@ -25,8 +25,8 @@ Visibility::Visibility(const Gpu& gpu, const Tuning& tuning, const KernelFeature
         return;
     }
     draw_.emplace(gpu, tuning, features);
-    unshadowed_.emplace(gpu, tuning, without_shadows(features), SurfaceFeatures{},
-                        features.area_lights);
+    unshadowed_.emplace(gpu, with_device_lanes(tuning), without_shadows(features),
+                        SurfaceFeatures{}, features.area_lights);
 }
 
 void Visibility::set_ambient(float ambient) {

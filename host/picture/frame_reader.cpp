@@ -45,31 +45,16 @@ FrameReader::Staged& FrameReader::staged_for(const void* place) {
     return out;
 }
 
-void FrameReader::read(const cl::Buffer& buffer, std::size_t bytes, void* to, StageTimer& timer) {
+const std::byte* FrameReader::read(Staged& staged, const cl::Buffer& buffer, std::size_t bytes,
+                                   StageTimer& timer) {
+    std::byte* to = staged.pinned.reserve(bytes);
     cl::Event event;
     gpu_.queue.enqueueReadBuffer(buffer, CL_FALSE, 0, bytes, to, nullptr, &event);
     timer.record(kReadBackStage, event);
+    return to;
 }
 
-void FrameReader::read_rows(const cl::Buffer& display, const View& view,
-                            const std::vector<DisplayRows>& rows, void* to, StageTimer& timer) {
-    const std::size_t row_bytes = sizeof(uint) * view.stride;
-    if (rows.empty()) return read(display, row_bytes * view.height, to, timer);
-    if (!beside_) beside_.emplace(gpu_.context, gpu_.device, CL_QUEUE_PROFILING_ENABLE);
-    gpu_.queue.flush();  // the other queue waits for its commands
-    for (const DisplayRows& part : rows) {
-        const std::size_t first = row_bytes * part.first;
-        const std::vector<cl::Event> made = {part.done};
-        cl::Event event;
-        beside_->enqueueReadBuffer(display, CL_FALSE, first, row_bytes * part.count,
-                                   static_cast<std::byte*>(to) + first, &made, &event);
-        timer.record_beside(kReadBackStage, event);
-    }
-    beside_->flush();
-}
-
-void FrameReader::read_display(const cl::Buffer& display, const View& view,
-                               const std::vector<DisplayRows>& rows, std::span<uint> pixels,
+void FrameReader::read_display(const cl::Buffer& display, const View& view, std::span<uint> pixels,
                                std::size_t to_stride, StageTimer& timer) {
     uint* first = &pixels[to_stride * view.first_row];
     if (gpu_.info.is_cpu) {  // nothing to stage: the device's memory is the host's
@@ -82,28 +67,24 @@ void FrameReader::read_display(const cl::Buffer& display, const View& view,
         return;
     }
     Staged& out = staged_for(first);
-    std::byte* codes = out.pinned.reserve(sizeof(uint) * view.stride * view.height);
-    read_rows(display, view, rows, codes, timer);
+    const std::byte* codes = read(out, display, sizeof(uint) * view.stride * view.height, timer);
     out.put = [=] { put_display(codes, view, first, to_stride); };
 }
 
 void FrameReader::read_light(const Radiance& radiance, std::vector<float>& rgb, StageTimer& timer) {
     const View view = radiance.view;
     Staged& out = staged_for(&rgb);
-    const std::size_t bytes = 3 * sizeof(float) * view.stride * view.height;
-    std::byte* light = out.pinned.reserve(bytes);
-    read(radiance.planes, bytes, light, timer);
+    const std::byte* light =
+        read(out, radiance.planes, 3 * sizeof(float) * view.stride * view.height, timer);
     out.put = [=, &rgb] { put_light(light, view, rgb); };
 }
 
 void FrameReader::reset() {
-    wait_beside();
     for (Staged& staged : staged_) staged.place = nullptr;
 }
 
 double FrameReader::finish() {
     gpu_.queue.finish();
-    wait_beside();
     const auto start = std::chrono::steady_clock::now();
     for (const Staged& staged : staged_) {
         if (staged.place) staged.put();

@@ -4,7 +4,6 @@
 #include <exception>
 #include <functional>
 #include <list>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,20 +20,11 @@ namespace kilolux {
 class FrameReader {
  public:
     explicit FrameReader(const Gpu& gpu) : gpu_(gpu) {}
-    ~FrameReader() { wait_beside(); }  // before the memory goes
-    FrameReader(const FrameReader&) = delete;
-    FrameReader& operator=(const FrameReader&) = delete;
 
     /// Enqueues the read of a band's sRGB pixels, uint[height][stride]. finish() puts them into
-    /// `pixels`, rows `to_stride` apart, which must outlive it. `rows`: if any, they are read as
-    /// soon as they are made.
-    void read_display(const cl::Buffer& display, const View& view,
-                      const std::vector<DisplayRows>& rows, std::span<uint> pixels,
+    /// `pixels`, rows `to_stride` apart, which must outlive it.
+    void read_display(const cl::Buffer& display, const View& view, std::span<uint> pixels,
                       std::size_t to_stride, StageTimer& timer);
-
-    /// Enqueues the same to pinned memory of the picture's own layout.
-    void read_rows(const cl::Buffer& display, const View& view,
-                   const std::vector<DisplayRows>& rows, void* to, StageTimer& timer);
 
     /// Enqueues the read of a band's light. finish() puts it into `rgb`, the interleaved light of
     /// the whole frame.
@@ -56,14 +46,11 @@ class FrameReader {
         std::function<void()> put;
     };
 
-    void wait_beside() {
-        if (beside_) clFinish((*beside_)());
-    }
     Staged& staged_for(const void* place);
-    void read(const cl::Buffer& buffer, std::size_t bytes, void* to, StageTimer& timer);
+    const std::byte* read(Staged& staged, const cl::Buffer& buffer, std::size_t bytes,
+                          StageTimer& timer);
 
     Gpu gpu_;
-    std::optional<cl::CommandQueue> beside_;  // reads what the queue has made, while it goes on
     std::list<Staged> staged_;
 };
 

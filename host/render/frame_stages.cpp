@@ -79,7 +79,6 @@ void FrameStages::shade(const Sample& sample, LitBand& band, Measured out) {
                                      {band.visible.words, band.visible.samples, band.shadows},
                                      sample.display);
         band.display = sample.display;
-        band.display_rows = shade_->display_rows();
     } else if (shade_all_) {
         shade_all_->set_ambient(ambient);
         band.light =

@@ -44,8 +44,7 @@ struct LitBand {
     SeenLights visible;             // with shadows, of `deferred`
     Radiance light;                 // of the forward renderers before shading: the background
     std::optional<Radiance> shown;  // after the stages over the whole picture
-    std::optional<DisplayTarget> display;   // the picture of `shown`, or made by shading
-    std::vector<DisplayRows> display_rows;  // that shading makes one after the other
+    std::optional<DisplayTarget> display;  // the picture of `shown`, or made by shading
 
     bool has_surfaces() const { return surfaces.bytes.buffer()() != nullptr; }
 
@@ -60,7 +59,6 @@ struct LitBand {
     void drop_picture() {
         shown.reset();
         display.reset();
-        display_rows.clear();
     }
 };
 

@@ -119,7 +119,7 @@ void PictureOutput::tonemap(LitBand& band, StageTimer& timer) {
 void PictureOutput::read(const LitBand& band, Frame& frame, StageTimer& timer) {
     if (band.light.planes.buffer()()) read_light(band.light, frame.radiance, timer);
     if (band.shown) read_light(*band.shown, frame.shown_light, timer);
-    if (band.display) read_display(*band.display, band.display_rows, timer);
+    if (band.display) read_display(*band.display, timer);
 }
 
 void PictureOutput::read_light(const Radiance& light, std::vector<float>& to, StageTimer& timer) {
@@ -132,20 +132,21 @@ View PictureOutput::in_frame(View view) const {
     return view;
 }
 
-void PictureOutput::read_display(const DisplayTarget& display, const std::vector<DisplayRows>& rows,
-                                 StageTimer& timer) {
+void PictureOutput::read_display(const DisplayTarget& display, StageTimer& timer) {
     const cl::CommandQueue& queue = context_.gpu.queue;
     if (is_written_by_device()) {
         void* mapped =
             queue.enqueueMapBuffer(display.pixels, CL_FALSE, CL_MAP_READ, 0, memory_.size_bytes());
         queue.enqueueUnmapMemObject(display.pixels, mapped);
     } else if (!memory_.empty() && memory_.data() == shown_.data<uint>()) {
-        reader_.read_rows(display.pixels, display.view, rows, memory_.data(), timer);
+        cl::Event event;
+        queue.enqueueReadBuffer(display.pixels, CL_FALSE, 0, memory_.size_bytes(), memory_.data(),
+                                nullptr, &event);
+        timer.record(kReadBackStage, event);
     } else if (!memory_.empty()) {
-        reader_.read_display(display.pixels, display.view, rows, memory_, display.view.stride,
-                             timer);
+        reader_.read_display(display.pixels, display.view, memory_, display.view.stride, timer);
     } else {
-        reader_.read_display(display.pixels, in_frame(display.view), rows, display_,
+        reader_.read_display(display.pixels, in_frame(display.view), display_,
                              static_cast<std::size_t>(context_.settings.width), timer);
     }
 }

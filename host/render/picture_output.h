@@ -68,8 +68,7 @@ class PictureOutput {
     Radiance whole_light();
     void keep(const Radiance& light);
     void read_light(const Radiance& light, std::vector<float>& to, StageTimer& timer);
-    void read_display(const DisplayTarget& display, const std::vector<DisplayRows>& rows,
-                      StageTimer& timer);
+    void read_display(const DisplayTarget& display, StageTimer& timer);
     View in_frame(View view) const;
 
     const RenderContext& context_;

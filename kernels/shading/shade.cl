@@ -37,7 +37,7 @@ typedef struct LightSource {
 // the same for all of its items.
 static inline uint group_shares(uint first, uint end) {
     uint rows = get_local_size(1);
-    uint begin = ((uint)get_global_id(1) - (uint)get_local_id(1)) % FINE_TILE * FINE_TILE;
+    uint begin = get_group_id(1) * rows % FINE_TILE * FINE_TILE;
     return select(0u, 1u, first < begin + rows * FINE_TILE) & select(0u, 1u, begin < end);
 }
 #endif

@@ -79,26 +79,6 @@ TEST(DiscreteDevice, CastsShadows) {
     expect_same_picture(grid_with_every_light(), settings);
 }
 
-// The picture is made and read in two parts.
-TEST(DiscreteDevice, ReadsLargeDisplaysWhileItShades) {
-    const Scene scene = make_generated_scene("grid");
-    RenderSettings settings = small_settings(2048, 2056, 8);
-    settings.geometry = Geometry::compute;
-    settings.shading = Shading::lambert;
-    settings.want.radiance = false;
-    const EnvironmentVariable as_gpu("KILOLUX_DEVICE_KIND", "gpu");
-    Renderer renderer(scene, settings);
-    const Camera camera = first_camera(scene);
-    const Frame first = renderer.render(camera, 0.0), again = renderer.render(camera, 0.0);
-    ASSERT_TRUE(first.stats.shaded_display);
-    settings.want.radiance = true;
-    renderer.change(settings);
-    const Frame mapped = renderer.render(camera, 0.0);
-    ASSERT_FALSE(mapped.stats.shaded_display);
-    EXPECT_EQ(first.display, mapped.display);
-    EXPECT_EQ(again.display, mapped.display);
-}
-
 TEST(DiscreteDevice, FollowsMovingLights) {
     const Scene scene = make_generated_scene("grid");
     const RenderSettings settings = settings_with(Geometry::ids);

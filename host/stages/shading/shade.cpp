@@ -38,26 +38,6 @@ BuildOptions shadow_options(BuildOptions options, int way, const KernelFeatures&
     return options;
 }
 
-// Displays of so many pixels are read while their last rows are shaded: those rows' launch costs
-// less than the read that it hides. NVIDIA H200, 3840x2560: a launch costs 0.07 ms, the read of all
-// rows takes 0.71.
-constexpr std::size_t kLargeDisplay = std::size_t{1} << 22;
-
-// Two thirds of the tiles' rows and the rest; none of small displays.
-std::vector<DisplayRows> parts_of(const View& view) {
-    const std::size_t first = round_up(2 * std::size_t{view.height} / 3, FINE_TILE);
-    if (std::size_t{view.stride} * view.height < kLargeDisplay || first >= view.height) return {};
-    return {{0, first, {}}, {first, view.height - first, {}}};
-}
-
-WorkSize items_of(const WorkSize& whole, const DisplayRows& rows) {
-    WorkSize out = whole;
-    const std::size_t columns = whole.global.get()[0];
-    out.global = cl::NDRange(columns, round_up(rows.count, whole.local.get()[1]));
-    out.offset = cl::NDRange(0, rows.first);
-    return out;
-}
-
 }  // namespace
 
 Shade::Shade(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
@@ -101,16 +81,12 @@ Radiance Shade::enqueue(const LitPixels& lit, StageTimer& timer, const SeenInput
         out.variance = variance_.reserve(std::size_t{view.stride} * view.height);
     LitPixels stored = lit;
     stored.lights = resources_.stored_lights(lit.lights, timer);
-    const auto enqueue = [&](const WorkSize& items) {
-        return features_.tinted_shadows
-                   ? kernel.enqueue(items, timer, stored, seen.words, seen.tints, seen.samples, out)
-                   : kernel.enqueue(items, timer, stored, seen.words, seen.samples, out);
-    };
-    const WorkSize all = resources_.work_size(kernel, view);
-    display_rows_.clear();
-    if (display && !resources_.gpu().info.is_cpu) display_rows_ = parts_of(view);
-    for (DisplayRows& rows : display_rows_) rows.done = enqueue(items_of(all, rows));
-    if (display_rows_.empty()) enqueue(all);
+    const auto items = resources_.work_size(kernel, view);
+    if (features_.tinted_shadows) {
+        kernel.enqueue(items, timer, stored, seen.words, seen.tints, seen.samples, out);
+    } else {
+        kernel.enqueue(items, timer, stored, seen.words, seen.samples, out);
+    }
     return light;
 }
 

@@ -37,9 +37,6 @@ class Shade {
     Radiance enqueue(const LitPixels& lit, StageTimer& timer, const SeenInput& seen = {},
                      const std::optional<DisplayTarget>& display = {});
 
-    /// The rows that the last enqueue() makes one after the other; none if it makes them at once.
-    const std::vector<DisplayRows>& display_rows() const { return display_rows_; }
-
     /// With sampled shadows, of the last enqueue(): the estimated variance of each pixel's
     /// luminance, [height][stride]; undefined for background.
     DeviceArray<float> variance() const { return variance_.get(); }
@@ -54,7 +51,6 @@ class Shade {
     bool candidates_;
     ShadingResources resources_;
     std::map<std::optional<int>, Kernel> kernels_;  // by tone curve; none: for radiance
-    std::vector<DisplayRows> display_rows_;
     GrowingArray<float> variance_;
     float ambient_ = 0.0f;
 };

@@ -8,11 +8,10 @@
 namespace kilolux {
 namespace {
 
-// The device with the lanes of shading. Kernels of sampled shadows pick lights anew, and need the
-// picks of others to the bit.
+// The device with the lanes of shading.
 Gpu shading_device(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features) {
-    const bool is_pbr = features.shading == SHADING_PBR && !features.sampled_shadows;
-    return is_pbr && tuning.pbr_lanes > 0 ? gpu.with_lanes(tuning.pbr_lanes) : gpu;
+    const Tuning t = features.sampled_shadows ? with_device_lanes(tuning) : tuning;
+    return features.shading == SHADING_PBR && t.pbr_lanes > 0 ? gpu.with_lanes(t.pbr_lanes) : gpu;
 }
 
 // A work-group has as many work-items whatever the lanes.

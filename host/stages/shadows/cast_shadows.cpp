@@ -96,10 +96,7 @@ void CastShadows::enqueue(const ShadowInput& input, const LitPixels& lit, const 
         counts = counts_.reserve(items);
         gpu_.queue.enqueueFillBuffer(counts.buffer(), cl_uint{0}, 0, items * sizeof(ShadowCounts));
     }
-    if (!order_) {
-        cast_.enqueue(size, timer, lit, input, to, samples, counts);
-        return;
-    }
+    if (!order_) return cast_.enqueue(size, timer, lit, input, to, samples, counts);
     const DeviceArray<uint> tiles =
         order_->enqueue(to.words.offsets, lit.clusters.tile_count, timer);
     cast_.enqueue(size, timer, lit, input, to, samples, counts, tiles);
