@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <vector>
 
@@ -190,6 +191,20 @@ TEST(BinPixels, AgreesOnDepthDiscontinuities) {
         expect_case({"orthographic", 97, 65, noise_depth(-5.0, 80.0, 0.2, 3), 0, group,
                      GBUFFER_PACKED, true});
     }
+}
+
+// So many clusters in each tile, and background.
+DepthOf clusters_and_background(uint count) {
+    return [=](uint x, uint y) {
+        const uint i = (y % FINE_TILE * FINE_TILE + x % FINE_TILE) % (count + 1);
+        return i == count ? no_depth()(x, y) : 0.55 * std::exp2(6.0 * i / count);
+    };
+}
+
+// A group fills 32 at once, background among them.
+TEST(BinPixels, AgreesOnTilesThatFillSeveralTimes) {
+    for (const uint count : {31u, 32u, 63u, 64u})
+        expect_case({"many clusters", 33, 33, clusters_and_background(count), 0, 64});
 }
 
 TEST(BinPixels, AgreesOnLayoutsThatStorePositions) {
