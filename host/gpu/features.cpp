@@ -59,8 +59,9 @@ Tuning default_tuning(const DeviceInfo& device) {
         tuning.raster_tile_height = 32;
         return tuning;
     }
-    tuning.shade_rows = std::max(group_of(FINE_TILE * columns, device) / columns, 1);
-    tuning.shade_stage = tuning.shade_rows == FINE_TILE ? 128 : 0;
+    // Items that run in step wait for no other at barriers: 32 or 64, by vendor.
+    tuning.shade_rows = std::clamp(group_of(64, device) / columns, 1, FINE_TILE);
+    tuning.shade_stage = tuning.shade_rows > 1 ? 64 : 0;
     tuning.cull_group = group_of(64, device);
     tuning.cull_chunks = 16 * device.compute_units;
     tuning.refine_group = group_of(64, device);

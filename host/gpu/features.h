@@ -30,12 +30,12 @@ std::size_t light_index_bytes(const KernelFeatures& features);
 
 BuildOptions feature_options(const KernelFeatures& features);
 
-/// Work sizes by device class. Data, found by measuring (`kilolux bench --tune`); results never
-/// depend on them.
+/// Work sizes by device class. Data, found by measuring (`kilolux bench --tune`). Results do not
+/// depend on them; with other pbr_lanes a GPU may round divisions and roots differently.
 struct Tuning {
     int shade_rows = 1;      // rows of a shading work-group at the device's lane width: 1..16
     int shade_stage = 0;     // lights that a shading work-group stages in local memory; 0: none
-    int pbr_lanes = 0;       // of shading by the PBR model without sampled shadows; 0: the device's
+    int pbr_lanes = 0;       // of PBR shading but with sampled shadows; 0: the device's lanes
     int shade_prefetch = 0;  // 1: shading asks for the next tile's pixels ahead, and
                              // resolve_surfaces for texels; 0: they do not
     int cull_group = 1;      // work-items that share a cluster's lights; 1: none do

@@ -93,11 +93,14 @@ RenderContext make_context(std::shared_ptr<RenderScene> scene, const RenderSetti
                            const Gpu& opened) {
     const ScenePlan plan = plan_of(scene->scene(), settings);
     Gpu gpu = opened;
-    const Tuning tuning = choose_tuning(describe(gpu.device), settings.kernels).tuning;
+    Tuning tuning = choose_tuning(describe(gpu.device), settings.kernels).tuning;
     // Two pixels of lights with a size need more registers than a GPU's work-item has (NVIDIA H100,
     // 1024 rectangles: shade takes 15.2 ms, and 5.2 with one lane).
     const bool is_narrow = plan.kernels.area_lights && !gpu.info.is_cpu;
-    if (is_narrow && settings.kernels.lanes == 0) gpu.info.lane_width = 1;
+    if (is_narrow && settings.kernels.lanes == 0) {
+        gpu.info.lane_width = 1;
+        tuning.pbr_lanes = 0;
+    }
     const bool in_opencl = draws_in_opencl(*scene, settings, tuning);
     if (in_opencl) note_limit(*scene, settings, tuning);
     const MemoryPlan memory = plan_memory(scene->scene(), settings, plan, gpu.info, in_opencl);

@@ -31,14 +31,14 @@ static inline LightExtent joined_extent(LightExtent a, LightExtent b) {
 }
 
 // Work-items that share a block.
-#define BLOCK_ITEMS 4u
+#define BLOCK_ITEMS (BLOCK_GROUP % 4 == 0 ? 4u : 1u)
 #define ITEM_LIGHTS (BLOCK / BLOCK_ITEMS)
 
 // Of the work-items of cull_lights_blocks.
 typedef struct BlockMemory {
-    float jump[BLOCK_GROUP];          // the longest one, from the light before to one of the item's
-    uint light[BLOCK_GROUP];          // the light where it ends
-    LightExtent before[BLOCK_GROUP];  // of the item's lights before the block's longest jump
+    float jump[BLOCK_GROUP];  // the square of the longest jump that ends at one of its lights
+    uint light[BLOCK_GROUP];  // the light where it ends
+    LightExtent before[BLOCK_GROUP];  // of its lights before the block's longest jump
     LightExtent after[BLOCK_GROUP];
 } BlockMemory;
 

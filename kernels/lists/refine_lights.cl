@@ -99,8 +99,8 @@ kernel void refine_lights_blocks(LIGHT_ARGS(const), COARSE_LIST_ARGS(const),
     }
 }
 
-// 1 if a light of a block may reach the cluster. Rounding is monotone: no distance from a box of
-// positions is greater than one from a position, as sphere_reaches() has them.
+// 1 if a light of a block may reach the cluster. Rounding is monotone, so the block's box is never
+// farther from the cluster, as sphere_reaches() computes it, than one of its lights.
 static inline uint block_reaches(ActiveCluster c, float4 low, float4 high) {
     float dx = max(max(c.min_x - high.x, low.x - c.max_x), 0.0f);
     float dy = max(max(c.min_y - high.y, low.y - c.max_y), 0.0f);

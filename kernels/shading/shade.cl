@@ -35,7 +35,7 @@ typedef struct LightSource {
 #if STAGE > 0
 // 1 if the work-group's rows have pixels at the places [first, end) of their tile's order, else 0;
 // the same for all of its items.
-static inline uint group_shares(uint first, uint end) {
+static inline uint group_has_pixels(uint first, uint end) {
     uint rows = get_local_size(1);
     uint begin = get_group_id(1) * rows % FINE_TILE * FINE_TILE;
     return select(0u, 1u, first < begin + rows * FINE_TILE) & select(0u, 1u, begin < end);
@@ -80,7 +80,7 @@ static inline LightSum source_sum(LightSource from, GBuffer g, ItemPlace at, Lit
         // The whole group skips a cluster that has none of its pixels. A selection: PoCL 3.1 loses
         // values that branches made before barriers.
         uint end = place + cluster->pixel_count;
-        count = select(0u, count, group_shares(place, end));
+        count = select(0u, count, group_has_pixels(place, end));
         place = end;
 #endif
         MASK mine = lanes_in_cluster(item, from.clusters, i);

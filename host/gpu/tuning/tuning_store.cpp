@@ -10,7 +10,7 @@
 namespace kilolux {
 namespace {
 
-constexpr CacheKind kKind = {"tuning", 7};  // 7: shade_stage with any shade_rows
+constexpr CacheKind kKind = {"tuning", 7};  // 7: shade_stage with any shade_rows, pbr_lanes
 
 constexpr TuningParameter kParameters[] = {
     {"shade_rows", &Tuning::shade_rows},
@@ -79,6 +79,8 @@ bool is_valid(const StoredTuning& stored, const DeviceInfo& device) {
     if (!is_group(t.shadow_group) || (t.shadow_group > 1 && !shares_shadows)) return false;
     if (!is_power_of_two(t.raster_lanes) || t.raster_lanes > FINE_TILE) return false;
     if (t.cull_chunks < 1 || t.cull_chunks > 65536 || t.prefix_per_item < 1) return false;
+    constexpr int kMostInTile = 256;  // their local memory is below 32 KiB
+    if (t.refine_group > kMostInTile || t.tile_group > kMostInTile) return false;
     return is_group(t.cull_group) && is_group(t.refine_group) && is_group(t.prefix_group) &&
            is_group(t.tile_group) && is_group(t.light_group);
 }

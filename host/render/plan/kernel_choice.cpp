@@ -26,7 +26,10 @@ void build_ahead(const Gpu& gpu, const Tuning& tuning) {
 
 StoredTuning choose_tuning(const DeviceInfo& device, const KernelSettings& settings) {
     StoredTuning choice = known_tuning(device);
-    if (settings.lanes > 0) choice.lanes = settings.lanes;
+    if (settings.lanes > 0) {
+        choice.lanes = settings.lanes;
+        choice.tuning.pbr_lanes = 0;
+    }
     if (settings.group_height > 0) choice.tuning.shade_rows = settings.group_height;
     if (settings.chunks > 0) choice.tuning.cull_chunks = settings.chunks;
     return choice;

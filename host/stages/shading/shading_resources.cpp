@@ -2,6 +2,7 @@
 #include "host/stages/shading/shading_resources.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "kernels/shared/cluster_grid.h"
 
@@ -14,16 +15,18 @@ Gpu shading_device(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& f
     return features.shading == SHADING_PBR && t.pbr_lanes > 0 ? gpu.with_lanes(t.pbr_lanes) : gpu;
 }
 
-// A work-group has as many work-items whatever the lanes.
-int rows_of_group(const Gpu& device, const Gpu& shading, int rows) {
-    return std::clamp(rows * shading.info.lane_width / device.info.lane_width, 1, FINE_TILE);
+// Fewer lanes have fewer rows, so that a work-group keeps its number of work-items. Its rows lie
+// within a tile.
+uint rows_of_group(const Gpu& device, const Gpu& shading, int rows) {
+    const int wanted = rows * shading.info.lane_width / device.info.lane_width;
+    return std::bit_floor(static_cast<uint>(std::clamp(wanted, 1, FINE_TILE)));
 }
 
 // PoCL 3.1 loses values across the barriers of staged work-groups one item wide, which 16 lanes
-// make, and reads through a wild pointer (hard case 17). A CPU gains nothing by staging, and GPUs
-// are not built with that many lanes.
+// make or a device without groups, and reads through a wild pointer (hard case 17). A CPU gains
+// nothing by staging, and GPUs are not built with that many lanes.
 Tuning usable(Tuning tuning, const DeviceInfo& device) {
-    if (device.lane_width >= FINE_TILE) tuning.shade_stage = 0;
+    if (device.lane_width >= FINE_TILE || device.max_work_group == 1) tuning.shade_stage = 0;
     return tuning;
 }
 
@@ -68,7 +71,7 @@ BuildOptions ShadingResources::options() const {
 }
 
 WorkSize ShadingResources::work_size(const Kernel& kernel, const View& view) const {
-    return kernel.pixel_items(view, rows_);
+    return kernel.pixel_items(view, static_cast<int>(rows_));
 }
 
 PreparedLights ShadingResources::stored_lights(const PreparedLights& lights, StageTimer& timer) {

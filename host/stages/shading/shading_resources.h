@@ -13,8 +13,8 @@ namespace kilolux {
 /// Bytes of pixels' lists and of their stored surfaces.
 double listed_surface_bytes(const StageCounts& counts);
 
-/// The tuning of kernels for sampled shadows, which pick lights anew and need the picks of others
-/// to the bit: all have the device's lanes.
+/// The tuning of kernels for sampled shadows. They repeat each other's picks of lights bit for bit,
+/// so all use the device's lanes.
 inline Tuning with_device_lanes(Tuning tuning) {
     tuning.pbr_lanes = 0;
     return tuning;
@@ -39,7 +39,7 @@ class ShadingResources {
 
  private:
     Gpu gpu_;
-    int rows_;  // of a work-group
+    uint rows_;  // of a work-group
     Tuning tuning_;
     KernelFeatures features_;
     std::optional<Kernel> store_lights_;  // with half_light_colors
