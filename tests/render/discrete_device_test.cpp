@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "host/render/plan/kernel_choice.h"
 #include "tests/support/environment_variable.h"
 #include "tests/support/render_fixture.h"
 
@@ -77,6 +78,20 @@ TEST(DiscreteDevice, CastsShadows) {
     RenderSettings settings = settings_with(Geometry::ids);
     settings.shadows = Shadows::exact;
     expect_same_picture(grid_with_every_light(), settings);
+}
+
+TEST(DiscreteDevice, GivenLanesAndRowsHoldForEveryModel) {
+    const EnvironmentVariable as_gpu("KILOLUX_DEVICE_KIND", "gpu");
+    const EnvironmentVariable tuned("KILOLUX_SHIPPED_TUNING", "H200");
+    const DeviceInfo device = describe(choose_device(RenderSettings().device));
+    ASSERT_GT(choose_tuning(device, {}).tuning.pbr_lanes, 0) << "PBR has lanes of its own there";
+    RenderSettings settings = settings_with(Geometry::compute);
+    const Frame usual = render_once(grid_with_every_light(), settings);
+    settings.kernels.lanes = 4;
+    EXPECT_EQ(choose_tuning(device, settings.kernels).lanes, 4);
+    EXPECT_EQ(choose_tuning(device, settings.kernels).tuning.pbr_lanes, 0);
+    settings.kernels.group_height = 3;  // does not divide a tile
+    EXPECT_EQ(render_once(grid_with_every_light(), settings).radiance, usual.radiance);
 }
 
 TEST(DiscreteDevice, FollowsMovingLights) {

@@ -213,6 +213,8 @@ std::vector<Tuning> shade_tunings(const DeviceInfo& info) {
     all[1].shade_stage = 16;
     all[2].shade_rows = 16;
     all[2].shade_stage = 16;
+    all[3].shade_rows = 8;
+    all[3].shade_stage = 16;
     all[3].pbr_lanes = 2;
     return all;
 }
