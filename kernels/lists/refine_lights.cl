@@ -44,14 +44,14 @@ kernel void refine_lights_reserve(View view, CLUSTER_ARGS(const), uint tile_coun
     reserves[tile] = (uint)min(sum, (ulong)0xffffffffu);
 }
 
-// A coarse list.
-typedef struct ListPart {
+// The list of a coarse cluster.
+typedef struct CoarseList {
     uint begin, end;  // of its entries
     uint block;       // its first one
-} ListPart;
+} CoarseList;
 
-static inline ListPart coarse_list(global const uint* offsets, uint capacity, uint coarse) {
-    ListPart list;
+static inline CoarseList coarse_list(global const uint* offsets, uint capacity, uint coarse) {
+    CoarseList list;
     list.end = min(offsets[coarse + 1], capacity);
     list.begin = min(offsets[coarse], list.end);
 #if BLOCK > 0
@@ -61,7 +61,9 @@ static inline ListPart coarse_list(global const uint* offsets, uint capacity, ui
 }
 
 #if BLOCK > 0
-static inline uint blocks_of(ListPart list) { return (list.end - list.begin + BLOCK - 1u) / BLOCK; }
+static inline uint blocks_of(CoarseList list) {
+    return (list.end - list.begin + BLOCK - 1u) / BLOCK;
+}
 
 // PARTS work-groups share the blocks of a coarse cluster.
 kernel void refine_lights_blocks(LIGHT_ARGS(const), COARSE_LIST_ARGS(const),
@@ -70,7 +72,7 @@ kernel void refine_lights_blocks(LIGHT_ARGS(const), COARSE_LIST_ARGS(const),
                                  global float4* restrict blocks) {
     local float4 lows[GROUP], highs[GROUP];
     uint item = get_local_id(0), lead = item / BLOCK_ITEMS * BLOCK_ITEMS;
-    ListPart list = coarse_list(coarse_offsets, coarse_capacity, get_group_id(0) / PARTS);
+    CoarseList list = coarse_list(coarse_offsets, coarse_capacity, get_group_id(0) / PARTS);
     uint count = blocks_of(list);
     uint step = GROUP / BLOCK_ITEMS;
     for (uint begin = get_group_id(0) % PARTS * step; begin < count; begin += PARTS * step) {
@@ -86,7 +88,9 @@ kernel void refine_lights_blocks(LIGHT_ARGS(const), COARSE_LIST_ARGS(const),
         }
         lows[item] = low;
         highs[item] = high;
+#if GROUP % 4 == 0
         barrier(CLK_LOCAL_MEM_FENCE);  // all are there
+#endif
         if (item == lead && b < count) {
             for (uint i = lead + 1u; i < lead + BLOCK_ITEMS; ++i) {
                 low = min(low, lows[i]);
@@ -95,7 +99,9 @@ kernel void refine_lights_blocks(LIGHT_ARGS(const), COARSE_LIST_ARGS(const),
             blocks[2u * (list.block + b)] = low;
             blocks[2u * (list.block + b) + 1u] = high;
         }
+#if GROUP % 4 == 0
         barrier(CLK_LOCAL_MEM_FENCE);  // all are used up
+#endif
     }
 }
 
@@ -269,7 +275,7 @@ kernel void refine_lights(LIGHT_ARGS(const), View view, COARSE_LIST_ARGS(const),
     Refining refining = {lights, bounds, coarse_lists, lists, list_capacity, ballots};
     FOR_EACH_CLUSTER(i, active, tile) {
         ActiveCluster c = clusters[i];
-        ListPart from =
+        CoarseList from =
             coarse_list(coarse_offsets, coarse_capacity, coarse_cluster(view, grid, tile, c.slice));
         uint begin = place;
 #if BLOCK > 0
