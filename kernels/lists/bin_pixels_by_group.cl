@@ -276,8 +276,7 @@ kernel void bin_pixels_fill(GBUFFER_ARGS, CLUSTER_ARGS()) {  // out: clusters an
         uint here = min(count + 1u - begin, (uint)AT_ONCE);  // with background
         clear_clusters(&made, here);
         barrier(CLK_LOCAL_MEM_FENCE);  // cleared before any grows
-        Run run;
-        run.cluster = NO_CLUSTER;
+        Run run = {NO_CLUSTER, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
         for (uint round = 0; round < ROUNDS; ++round) {
             uint strip = strip_of_round(round);
             if (strip < end)

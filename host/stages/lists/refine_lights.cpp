@@ -8,8 +8,8 @@ constexpr std::size_t kFirstEntries = std::size_t{1} << 20;
 
 // BLOCK of kernels/lists/refine_lights.cl, and work-groups that find the blocks of a cluster.
 // NVIDIA H200, a million lights: 8 groups take 0.03 ms. 32 take 0.10 ms: most find no work.
-constexpr std::size_t kLightsOfBlock = 32, kPartsOfCluster = 8;
-constexpr std::size_t kRowsOfBlock = 2;
+constexpr std::size_t kListBlock = 32, kBlockParts = 8;
+constexpr std::size_t kBlockRows = 2;
 
 // Lists of so many lights that their indices need 32 bits are long enough to gain by blocks.
 bool has_blocks(const KernelFeatures& features) { return features.light_index_bits == 32; }
@@ -25,8 +25,8 @@ int group_of(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& feature
 BuildOptions options_of(int group, const KernelFeatures& features) {
     return BuildOptions()
         .define("GROUP", group)
-        .define("BLOCK", has_blocks(features) ? kLightsOfBlock : 0)
-        .define("PARTS", kPartsOfCluster)
+        .define("BLOCK", has_blocks(features) ? kListBlock : 0)
+        .define("PARTS", kBlockParts)
         .define("HAS_SPOT_LIGHTS", features.spot_lights)
         .define("LIGHT_INDEX", light_index_type(features));
 }
@@ -70,9 +70,9 @@ RefinedLists RefineLights::enqueue(const PreparedLights& lights, const CoarseLis
         const std::size_t coarse_clusters = clusters.grid.cluster_count;
         // The last block of a list may be a part of one.
         input.blocks =
-            blocks_.reserve(kRowsOfBlock * (coarse.capacity / kLightsOfBlock + coarse_clusters));
-        make_blocks_->enqueue(groups(kPartsOfCluster * coarse_clusters, group_), timer, lights,
-                              coarse, input.blocks);
+            blocks_.reserve(kBlockRows * (coarse.capacity / kListBlock + coarse_clusters));
+        make_blocks_->enqueue(groups(kBlockParts * coarse_clusters, group_), timer, lights, coarse,
+                              input.blocks);
     }
     refine_.enqueue(groups(tiles, group_), timer, lights, view, coarse, clusters, input, out);
     return out;
