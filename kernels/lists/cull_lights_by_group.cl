@@ -31,7 +31,7 @@ static inline LightExtent joined_extent(LightExtent a, LightExtent b) {
 }
 
 // Work-items that share a block.
-#define BLOCK_ITEMS (BLOCK_GROUP % 4 == 0 ? 4u : 1u)
+#define BLOCK_ITEMS 4u
 #define ITEM_LIGHTS (BLOCK / BLOCK_ITEMS)
 
 // Of the work-items of cull_lights_blocks.

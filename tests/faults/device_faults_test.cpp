@@ -117,7 +117,7 @@ TEST_F(Faults, ADeviceOfSmallWorkGroups) {
     const ChildResult large = run_child(render_words(with_environment({device}), expected, more));
     EXPECT_EQ(large.code, 0) << large.err;
     for (const char* most : {"POCL_MAX_WORK_GROUP_SIZE=64", "POCL_MAX_WORK_GROUP_SIZE=8",
-                             "POCL_MAX_WORK_GROUP_SIZE=4"}) {
+                             "POCL_MAX_WORK_GROUP_SIZE=4", "POCL_MAX_WORK_GROUP_SIZE=2"}) {
         const ChildResult small =
             run_child(render_words(with_environment({device, most}), small_file, more));
         EXPECT_EQ(small.code, 0) << most << small.err;

@@ -27,6 +27,12 @@ std::string_view program_name(const Tuning& tuning) {
     return tuning.cull_group == 1 ? "cull_lights_by_item" : "cull_lights_by_group";
 }
 
+// The form by groups has BLOCK_ITEMS items a block.
+Tuning with_whole_blocks(Tuning tuning, const DeviceInfo& device) {
+    if (device.max_work_group < 4) tuning.cull_group = 1;
+    return tuning;
+}
+
 // Work-items that find the blocks of a span: few lights each, which they load at once.
 int block_group(const Gpu& gpu) {
     const auto most = static_cast<unsigned>(gpu.info.max_work_group);
@@ -46,17 +52,17 @@ BuildOptions cull_options(const Gpu& gpu, const Tuning& tuning, const KernelFeat
 }  // namespace
 
 CullLights::CullLights(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
-    : tuning_(tuning),
+    : tuning_(with_whole_blocks(tuning, gpu.info)),
       groups_(kGroupsOfUnit * static_cast<std::size_t>(gpu.info.compute_units)),
       block_group_(block_group(gpu)),
-      program_(build_program(gpu, program_name(tuning), cull_options(gpu, tuning, features))),
+      program_(build_program(gpu, program_name(tuning_), cull_options(gpu, tuning_, features))),
       count_(gpu, program_, kCullLightsStage, "cull_lights_count"),
       offset_(gpu, program_, kCullLightsStage, "cull_lights_offset"),
       fill_(gpu, program_, kCullLightsStage, "cull_lights_fill"),
       brute_force_(gpu, program_, kBruteForce, "cull_lights_brute_force"),
       cursors_(gpu, kCullLightsStage),
       lists_(gpu, tuning, kCullLightsStage, "(light, cluster) pairs", light_index_bytes(features)) {
-    if (tuning.cull_group > 1) blocks_.emplace(gpu, program_);
+    if (tuning_.cull_group > 1) blocks_.emplace(gpu, program_);
     lists_.reserve(kFirstCoarseEntries);
 }
 
