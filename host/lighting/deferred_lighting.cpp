@@ -63,9 +63,7 @@ AllLightsLighting::AllLightsLighting(const Gpu& gpu, const Tuning& tuning,
       shade_(gpu, tuning, features, surfaces),
       casts_shadows_(features.shadows) {
     if (!features.sampled_shadows) return;
-    KernelFeatures unshadowed = features;
-    unshadowed.shadows = unshadowed.sampled_shadows = false;
-    unshadowed_.emplace(gpu, with_device_lanes(tuning), unshadowed);
+    unshadowed_.emplace(gpu, with_device_lanes(tuning), without_shadows(features));
 }
 
 Radiance AllLightsLighting::enqueue(const LightingInput& input, StageTimer& timer) {

@@ -6,14 +6,11 @@
 #include "kernels/shared/shadow.h"
 
 namespace kilolux {
-namespace {
 
 KernelFeatures without_shadows(KernelFeatures features) {
     features.shadows = features.sampled_shadows = false;
     return features;
 }
-
-}  // namespace
 
 Visibility::Visibility(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
                        const SurfaceFeatures& surfaces)

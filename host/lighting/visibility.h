@@ -20,6 +20,9 @@ struct SeenLights {
     DeviceArray<uint> kept{};  // see ShadowTargets
 };
 
+/// The features of kernels for the unshadowed light that sampled shadows start from.
+KernelFeatures without_shadows(KernelFeatures features);
+
 /// Finds out which of the lights in its list each pixel sees: by CastShadows, after DrawShadows
 /// with sampled ones.
 class Visibility {
