@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -107,6 +108,33 @@ inline double mean_difference(const ScenePart& a, const ScenePart& b) {
         sum += std::abs(static_cast<double>(a.values[i]) - static_cast<double>(b.values[i]));
     }
     return sum / static_cast<double>(a.values.size());
+}
+
+/// Pixels of a screenshot's rectangle that differ from another one, and how many of them are nearly
+/// white.
+struct PixelChanges {
+    int changed = 0, white = 0;
+};
+
+/// `place`: left, top, width, height [pixel].
+inline PixelChanges changes(const fs::path& before, const fs::path& after,
+                            const std::array<int, 4>& place) {
+    const FloatImage a = read_image(before), b = read_image(after);
+    const std::size_t channels = a.channels.size();
+    PixelChanges out;
+    for (int y = place[1]; y < place[1] + place[3]; ++y) {
+        for (int x = place[0]; x < place[0] + place[2]; ++x) {
+            const std::size_t at = channels * static_cast<std::size_t>(y * a.width + x);
+            const auto is = [&](const FloatImage& image) {
+                return std::array{image.values[at], image.values[at + 1], image.values[at + 2]};
+            };
+            const auto colour = is(b);
+            if (colour == is(a)) continue;
+            ++out.changed;
+            out.white += *std::min_element(colour.begin(), colour.end()) > 0.7f;
+        }
+    }
+    return out;
 }
 
 /// A script and the pictures that it saves, in a folder.
