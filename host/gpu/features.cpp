@@ -28,16 +28,20 @@ BuildOptions feature_options(const KernelFeatures& features) {
 
 namespace {
 
-// At most `wanted` work-items, as many as the device has in a group; 1 where that is below `least`.
-int group_of(int wanted, const DeviceInfo& device, int least = 1) {
+constexpr int kLeastShared = 32;  // work-items that share a tile's triangles or shadows, if any do
+
+}  // namespace
+
+Tuning with_device_lanes(Tuning tuning) {
+    tuning.pbr_lanes = 0;
+    return tuning;
+}
+
+int fitting_group(int wanted, const DeviceInfo& device, int least) {
     const auto most = std::bit_floor(static_cast<unsigned>(std::max(device.max_work_group, 1)));
     const int group = std::min(wanted, static_cast<int>(most));
     return group >= least ? group : 1;
 }
-
-constexpr int kLeastShared = 32;  // work-items that share a tile's triangles or shadows, if any do
-
-}  // namespace
 
 Tuning default_tuning(const DeviceInfo& device) {
     if (const auto forced = forced_tuning(device)) return forced->tuning;
@@ -46,12 +50,12 @@ Tuning default_tuning(const DeviceInfo& device) {
     if (device.is_cpu) {
         // Eight rows of a tile share cache lines: shading takes a sixth less than row by row. With
         // all 16 a thread's share is too coarse to balance on many cores.
-        tuning.shade_rows = std::max(group_of(8 * columns, device) / columns, 1);
+        tuning.shade_rows = std::max(fitting_group(8 * columns, device) / columns, 1);
         // With few lights, loading pixels takes longer than shading them. Oclgrind and rusticl's
         // SPIR-V translator do not know the prefetch instruction; the latter ends the process.
         tuning.shade_prefetch = device.is_pocl() ? 1 : 0;
         tuning.cull_chunks = 16 * device.compute_units;
-        tuning.light_group = group_of(16, device);
+        tuning.light_group = fitting_group(16, device);
         // Triangles are narrow: wider vectors are mostly empty. A tile of this size stays in the
         // nearest cache.
         tuning.raster_lanes = 8;
@@ -60,19 +64,19 @@ Tuning default_tuning(const DeviceInfo& device) {
         return tuning;
     }
     // Items that run in step wait for no other at barriers: 32 or 64, by vendor.
-    tuning.shade_rows = std::clamp(group_of(64, device) / columns, 1, FINE_TILE);
+    tuning.shade_rows = std::clamp(fitting_group(64, device) / columns, 1, FINE_TILE);
     tuning.shade_stage = tuning.shade_rows > 1 ? 64 : 0;
-    tuning.cull_group = group_of(64, device);
+    tuning.cull_group = fitting_group(64, device);
     tuning.cull_chunks = 16 * device.compute_units;
-    tuning.refine_group = group_of(64, device);
-    tuning.prefix_group = group_of(256, device);
+    tuning.refine_group = fitting_group(64, device);
+    tuning.prefix_group = fitting_group(256, device);
     tuning.prefix_per_item = 8;
-    tuning.tile_group = group_of(64, device);
-    tuning.light_group = group_of(64, device);
-    tuning.raster_group = group_of(256, device, kLeastShared);
+    tuning.tile_group = fitting_group(64, device);
+    tuning.light_group = fitting_group(64, device);
+    tuning.raster_group = fitting_group(256, device, kLeastShared);
     tuning.raster_tile_width = 32;
     tuning.raster_tile_height = 16;
-    tuning.shadow_group = group_of(32, device, kLeastShared);
+    tuning.shadow_group = fitting_group(32, device, kLeastShared);
     return tuning;
 }
 

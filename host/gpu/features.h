@@ -56,6 +56,14 @@ struct Tuning {
     bool operator==(const Tuning&) const = default;
 };
 
+/// The same where all shading uses the device's lanes: where their number was given, and for
+/// sampled shadows, whose kernels repeat each other's picks of lights bit for bit.
+Tuning with_device_lanes(Tuning tuning);
+
+/// Work-items of a group: `wanted`, a power of two, or the largest one below it that the device
+/// takes; 1 where that is below `least`.
+int fitting_group(int wanted, const DeviceInfo& device, int least = 1);
+
 Tuning default_tuning(const DeviceInfo& device);
 
 }  // namespace kilolux

@@ -99,7 +99,7 @@ RenderContext make_context(std::shared_ptr<RenderScene> scene, const RenderSetti
     const bool is_narrow = plan.kernels.area_lights && !gpu.info.is_cpu;
     if (is_narrow && settings.kernels.lanes == 0) {
         gpu.info.lane_width = 1;
-        tuning.pbr_lanes = 0;
+        tuning = with_device_lanes(tuning);
     }
     const bool in_opencl = draws_in_opencl(*scene, settings, tuning);
     if (in_opencl) note_limit(*scene, settings, tuning);

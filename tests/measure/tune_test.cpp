@@ -13,6 +13,7 @@
 #include "host/measure/bench/feature_cost.h"
 #include "host/scene/generated/scenes.h"
 #include "kernels/shared/evaluate_modes.h"
+#include "tests/measure/test_device.h"
 #include "tests/support/cache_sandbox.h"
 
 namespace kilolux {
@@ -21,15 +22,7 @@ namespace {
 // What it starts from is the built-in table's row.
 using Tune = TuningSandbox;
 
-DeviceInfo two_cores() {
-    DeviceInfo device;
-    device.name = "test";
-    device.is_cpu = true;
-    device.lane_width = 8;
-    device.compute_units = 2;
-    device.max_work_group = 4096;
-    return device;
-}
+DeviceInfo two_cores() { return device_named("test"); }
 
 // The built-in row, but with 8 lanes, so that 16 is a change.
 StoredTuning eight_lanes() {

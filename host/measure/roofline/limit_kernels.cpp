@@ -5,6 +5,8 @@
 #include <chrono>
 #include <limits>
 
+#include "host/gpu/features.h"
+
 namespace kilolux {
 namespace {
 
@@ -70,9 +72,7 @@ std::uint64_t cached_buffer_bytes(const DeviceInfo& device) {
 LimitKernels::LimitKernels(const Gpu& gpu)
     : gpu_(gpu),
       program_(build_program(gpu, "measure_limits")),
-      group_(gpu.info.is_cpu
-                 ? 1
-                 : std::min<std::size_t>(256, static_cast<std::size_t>(gpu.info.max_work_group))),
+      group_(gpu.info.is_cpu ? 1 : static_cast<std::size_t>(fitting_group(256, gpu.info))),
       // Four pieces a CPU thread balance late starts; GPUs need many to hide latency.
       items_(static_cast<std::size_t>(gpu.info.compute_units) *
              (gpu.info.is_cpu ? 4 : 16 * group_)),

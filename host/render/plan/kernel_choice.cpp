@@ -28,7 +28,7 @@ StoredTuning choose_tuning(const DeviceInfo& device, const KernelSettings& setti
     StoredTuning choice = known_tuning(device);
     if (settings.lanes > 0) {
         choice.lanes = settings.lanes;
-        choice.tuning.pbr_lanes = 0;
+        choice.tuning = with_device_lanes(choice.tuning);
     }
     if (settings.group_height > 0) choice.tuning.shade_rows = settings.group_height;
     if (settings.chunks > 0) choice.tuning.cull_chunks = settings.chunks;

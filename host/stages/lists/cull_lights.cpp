@@ -2,7 +2,6 @@
 #include "host/stages/lists/cull_lights.h"
 
 #include <algorithm>
-#include <bit>
 
 namespace kilolux {
 namespace {
@@ -33,18 +32,14 @@ Tuning with_whole_blocks(Tuning tuning, const DeviceInfo& device) {
     return tuning;
 }
 
-// Work-items that find the blocks of a span: few lights each, which they load at once.
-int block_group(const Gpu& gpu) {
-    const auto most = static_cast<unsigned>(gpu.info.max_work_group);
-    return std::min(256, static_cast<int>(std::bit_floor(most)));
-}
+constexpr int kBlockGroup = 256;  // find the blocks of a span: few lights each, loaded at once
 
 BuildOptions cull_options(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features) {
     return BuildOptions()
         .define("GROUP", tuning.cull_group)
         .define("BLOCK", kLightsOfBlock)
         .define("SPAN", kBlocksOfSpan)
-        .define("BLOCK_GROUP", block_group(gpu))
+        .define("BLOCK_GROUP", fitting_group(kBlockGroup, gpu.info))
         .define("HAS_SPOT_LIGHTS", features.spot_lights)
         .define("LIGHT_INDEX", light_index_type(features));
 }
@@ -54,7 +49,7 @@ BuildOptions cull_options(const Gpu& gpu, const Tuning& tuning, const KernelFeat
 CullLights::CullLights(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
     : tuning_(with_whole_blocks(tuning, gpu.info)),
       groups_(kGroupsOfUnit * static_cast<std::size_t>(gpu.info.compute_units)),
-      block_group_(block_group(gpu)),
+      block_group_(fitting_group(kBlockGroup, gpu.info)),
       program_(build_program(gpu, program_name(tuning_), cull_options(gpu, tuning_, features))),
       count_(gpu, program_, kCullLightsStage, "cull_lights_count"),
       offset_(gpu, program_, kCullLightsStage, "cull_lights_offset"),

@@ -16,10 +16,10 @@ bool has_blocks(const KernelFeatures& features) { return features.light_index_bi
 
 // A long list keeps more work-items busy. NVIDIA H200, a million lights: 64, 128 and 256 take 0.18,
 // 0.12 and 0.13 ms.
-int group_of(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features) {
+int doubled_if_long(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features) {
     const int group = tuning.refine_group;
-    const int most = std::min(256, gpu.info.max_work_group);
-    return group > 1 && has_blocks(features) && 2 * group <= most ? 2 * group : group;
+    const bool is_long = group > 1 && has_blocks(features);
+    return is_long ? std::max(group, std::min(2 * group, fitting_group(256, gpu.info))) : group;
 }
 
 BuildOptions options_of(int group, const KernelFeatures& features) {
@@ -46,7 +46,7 @@ struct TileInput {
 
 RefineLights::RefineLights(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
     : tuning_(tuning),
-      group_(group_of(gpu, tuning, features)),
+      group_(doubled_if_long(gpu, tuning, features)),
       program_(build_program(gpu, kRefineLightsStage, options_of(group_, features))),
       reserve_(gpu, program_, kRefineLightsStage, "refine_lights_reserve"),
       refine_(gpu, program_, kRefineLightsStage, "refine_lights"),

@@ -25,7 +25,7 @@ uint rows_of_group(const Gpu& device, const Gpu& shading, int rows) {
 // PoCL 3.1 loses values across the barriers of staged work-groups one item wide, which 16 lanes
 // make or a device without groups, and reads through a wild pointer (hard case 17). A CPU gains
 // nothing by staging, and GPUs are not built with that many lanes.
-Tuning usable(Tuning tuning, const DeviceInfo& device) {
+Tuning usable_for_shading(Tuning tuning, const DeviceInfo& device) {
     if (device.lane_width >= FINE_TILE || device.max_work_group == 1) tuning.shade_stage = 0;
     return tuning;
 }
@@ -49,7 +49,7 @@ ShadingResources::ShadingResources(const Gpu& gpu, const Tuning& tuning,
                                    const KernelFeatures& features, std::string_view stage)
     : gpu_(shading_device(gpu, tuning, features)),
       rows_(rows_of_group(gpu, gpu_, tuning.shade_rows)),
-      tuning_(usable(tuning, gpu_.info)),
+      tuning_(usable_for_shading(tuning, gpu_.info)),
       features_(features),
       radiance_(gpu, stage),
       stored_(gpu, stage) {

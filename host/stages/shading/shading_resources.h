@@ -13,13 +13,6 @@ namespace kilolux {
 /// Bytes of pixels' lists and of their stored surfaces.
 double listed_surface_bytes(const StageCounts& counts);
 
-/// The tuning of kernels for sampled shadows. They repeat each other's picks of lights bit for bit,
-/// so all use the device's lanes.
-inline Tuning with_device_lanes(Tuning tuning) {
-    tuning.pbr_lanes = 0;
-    return tuning;
-}
-
 /// The common part of stages that evaluate lights: build options, tables, lights in the kernels'
 /// form, output.
 class ShadingResources {

@@ -14,7 +14,7 @@ constexpr std::size_t kFirstPairs = std::size_t{1} << 18;  // that there is room
 // Work-items that share their triangles' tiles: many, so that many share large triangles. 1: each
 // has its own chunk.
 int bin_group(const Gpu& gpu, const Tuning& tuning) {
-    return tuning.raster_group == 1 ? 1 : std::min(256, gpu.info.max_work_group);
+    return tuning.raster_group == 1 ? 1 : fitting_group(256, gpu.info);
 }
 
 // BINNING_ARGS of the kernels.
