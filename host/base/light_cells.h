@@ -8,10 +8,11 @@
 
 namespace kilolux {
 
-/// Edge of the cells by which lights of this range are ordered [m]: a power of two, an eighth to a
-/// sixteenth of the range. Its inverse is a float.
+/// Edge of the cells by which lights of this range are ordered [m]: a power of two, half of the range
+/// to the range. Smaller ones would hardly tighten what a block of lights reaches, and let a cube of
+/// light_order.h hold fewer lights than a block. Its inverse is a float.
 inline double light_cell_edge(float range) {
-    return std::ldexp(0.125, std::max(std::ilogb(range), -120));
+    return std::ldexp(1.0, std::max(std::ilogb(range), -120));
 }
 
 /// The number of the cell that x [m] lies in along an axis.

@@ -34,61 +34,17 @@ static inline LightExtent joined_extent(LightExtent a, LightExtent b) {
 #define BLOCK_ITEMS 4u
 #define ITEM_LIGHTS (BLOCK / BLOCK_ITEMS)
 
-// Of the work-items of cull_lights_blocks.
-typedef struct BlockMemory {
-    float jump[BLOCK_GROUP];  // the square of the longest jump that ends at one of its lights
-    uint light[BLOCK_GROUP];  // the light where it ends
-    LightExtent before[BLOCK_GROUP];  // of its lights before the block's longest jump
-    LightExtent after[BLOCK_GROUP];
-} BlockMemory;
-
-// The longest jump to the lights from `first` on: the order of lights jumps between cubes. A block
-// begins with the lights of item `lead`; no jump leads to its first one.
-static inline void find_jump(global const float4* bounds, uint first, uint end, uint lead,
-                             local BlockMemory* memory) {
-    uint item = get_local_id(0), light = end;
-    float longest = 0.0f;
-    if (first < end) {
-        float3 last = bounds[item == lead ? first : first - 1u].xyz;
+// What a work-item's lights of a block reach.
+static inline LightExtent extent_of_lights(global const LightExtent* extents, uint first,
+                                           uint end) {
+    LightExtent joined = empty_extent();
+    if (first >= end) return joined;
 #pragma unroll
-        for (uint i = 0; i < ITEM_LIGHTS; ++i) {
-            float3 at = bounds[min(first + i, end - 1u)].xyz;
-            float3 step = at - last;
-            float jump = dot(step, step);
-            light = jump > longest ? first + i : light;
-            longest = max(longest, jump);
-            last = at;
-        }
+    for (uint i = 0; i < ITEM_LIGHTS; ++i) {
+        LightExtent e = extents[min(first + i, end - 1u)];
+        joined = joined_extent(joined, touches_grid(e) ? e : empty_extent());
     }
-    memory->jump[item] = longest;
-    memory->light[item] = light;
-}
-
-// Where the longest jump of the block of items from `lead` on ends.
-static inline uint after_jump(uint lead, uint end, local const BlockMemory* memory) {
-    uint light = end;
-    float longest = 0.0f;
-    for (uint i = lead; i < lead + BLOCK_ITEMS; ++i) {
-        light = memory->jump[i] > longest ? memory->light[i] : light;
-        longest = max(longest, memory->jump[i]);
-    }
-    return light;
-}
-
-static inline void join_lights(global const LightExtent* extents, uint first, uint end, uint jump,
-                               local BlockMemory* memory) {
-    LightExtent before = empty_extent(), after = empty_extent();
-    if (first < end) {
-#pragma unroll
-        for (uint i = 0; i < ITEM_LIGHTS; ++i) {
-            LightExtent e = extents[min(first + i, end - 1u)];
-            if (!touches_grid(e)) e = empty_extent();
-            before = joined_extent(before, first + i < jump ? e : empty_extent());
-            after = joined_extent(after, first + i < jump ? empty_extent() : e);
-        }
-    }
-    memory->before[get_local_id(0)] = before;
-    memory->after[get_local_id(0)] = after;
+    return joined;
 }
 
 static inline uint span_count(uint light_count) {
@@ -97,41 +53,33 @@ static inline uint span_count(uint light_count) {
 
 // One work-group of BLOCK_GROUP items takes one span.
 kernel void cull_lights_blocks(LIGHT_ARGS(const),
-                               global LightExtent* restrict blocks,  // out [spans][SPAN][2]
+                               global LightExtent* restrict blocks,  // out [spans][SPAN]
                                global LightExtent* restrict spans,   // out [spans]
                                global uint* restrict work_count) {   // out [1]: 0
-    local BlockMemory memory;
+    local LightExtent parts[BLOCK_GROUP];
     uint span = get_group_id(0);
     uint item = get_local_id(0), lead = item / BLOCK_ITEMS * BLOCK_ITEMS;
-    LightExtent part = empty_extent();
+    LightExtent whole = empty_extent();
     for (uint b = item / BLOCK_ITEMS; b < SPAN; b += BLOCK_GROUP / BLOCK_ITEMS) {
         uint block = span * SPAN + b;
         uint first = block * BLOCK + (item - lead) * ITEM_LIGHTS;
-        find_jump(bounds, first, light_count, lead, &memory);
-        barrier(CLK_LOCAL_MEM_FENCE);  // the jumps are there, and the extents used up
-        join_lights(extents, first, light_count, after_jump(lead, light_count, &memory), &memory);
-        barrier(CLK_LOCAL_MEM_FENCE);  // the extents are there, and the jumps used up
+        parts[item] = extent_of_lights(extents, first, light_count);
+        barrier(CLK_LOCAL_MEM_FENCE);  // the parts are there
         if (item == lead) {
-            LightExtent before = memory.before[item], after = memory.after[item];
-            for (uint i = item + 1u; i < item + BLOCK_ITEMS; ++i) {
-                before = joined_extent(before, memory.before[i]);
-                after = joined_extent(after, memory.after[i]);
-            }
-            blocks[2u * block] = before;
-            blocks[2u * block + 1u] = after;
-            part = joined_extent(part, joined_extent(before, after));
+            LightExtent joined = parts[item];
+            for (uint i = 1; i < BLOCK_ITEMS; ++i) joined = joined_extent(joined, parts[item + i]);
+            blocks[block] = joined;
+            whole = joined_extent(whole, joined);
         }
+        barrier(CLK_LOCAL_MEM_FENCE);  // the parts are used up
     }
-    barrier(CLK_LOCAL_MEM_FENCE);  // the last extents are used up
-    memory.before[item] = part;
-    for (uint step = BLOCK_GROUP / 2u; step > 0u; step /= 2u) {
+    parts[item] = whole;
+    for (uint step = BLOCK_GROUP / 2u; step >= BLOCK_ITEMS; step /= 2u) {
         barrier(CLK_LOCAL_MEM_FENCE);
-        if (item < step) {
-            memory.before[item] = joined_extent(memory.before[item], memory.before[item + step]);
-        }
+        if (item < step) parts[item] = joined_extent(parts[item], parts[item + step]);
     }
     if (item != 0u) return;
-    spans[span] = memory.before[0];
+    spans[span] = parts[0];
     if (span == 0u) work_count[0] = 0u;
 }
 
@@ -156,14 +104,15 @@ typedef struct LightBlocks {
     global const ShadeLight* lights;
     global const float4* bounds;
     global const LightExtent* extents;
-    global const LightExtent* blocks;  // two each: before and after the longest jump
+    global const LightExtent* blocks;
     global const LightExtent* spans;
     uint count;  // of lights
 } LightBlocks;
 
 typedef struct GroupMemory {
     uint ballots[BALLOT_WORDS(GROUP)];
-    uchar blocks[SPAN];  // of a span, that can reach the cluster
+    uint spans[GROUP];   // that can reach the cluster
+    uchar blocks[SPAN];  // of a span, that can reach it
 } GroupMemory;
 
 // The target of a work-group's pairs: counted, or filled in.
@@ -180,8 +129,7 @@ static inline uint find_blocks(LightBlocks from, BoxedCluster c, uint span, Grou
     uint found = 0u;
     for (uint first = 0; first < SPAN; first += GROUP) {
         uint b = first + (uint)get_local_id(0);
-        uint at = 2u * (span * SPAN + min(b, SPAN - 1u));
-        uint flag = extent_holds(from.blocks[at], c) | extent_holds(from.blocks[at + 1u], c);
+        uint flag = extent_holds(from.blocks[span * SPAN + min(b, SPAN - 1u)], c);
         flag &= select(0u, 1u, b < SPAN);
         GroupBallot ballot = group_ballot(flag, GROUP, sink->turn++, memory->ballots);
         if (ballot.flag != 0u) memory->blocks[found + ballot.before] = (uchar)b;
@@ -207,11 +155,24 @@ static inline void gather_span(LightBlocks from, BoxedCluster c, uint span, Grou
     }
 }
 
+// Of at most GROUP spans from `first` on, those that can reach the cluster, ascending, in local
+// memory; returns their number.
+static inline uint find_spans(LightBlocks from, BoxedCluster c, uint first, uint end,
+                              GroupSink* sink, local GroupMemory* memory) {
+    uint span = first + (uint)get_local_id(0);
+    uint flag = extent_holds(from.spans[min(span, end - 1u)], c) & select(0u, 1u, span < end);
+    GroupBallot ballot = group_ballot(flag, GROUP, sink->turn++, memory->ballots);
+    if (ballot.flag != 0u) memory->spans[ballot.before] = span;
+    barrier(CLK_LOCAL_MEM_FENCE);  // the spans are there
+    return ballot.total;
+}
+
 static inline void gather_chunk(LightBlocks from, BoxedCluster c, uint chunk, uint chunk_count,
                                 GroupSink* sink, local GroupMemory* memory) {
     uint2 spans = part_of_chunk(span_count(from.count), chunk, chunk_count);
-    for (uint span = spans.x; span < spans.y; ++span) {
-        if (extent_holds(from.spans[span], c) != 0u) gather_span(from, c, span, sink, memory);
+    for (uint first = spans.x; first < spans.y; first += GROUP) {
+        uint found = find_spans(from, c, first, spans.y, sink, memory);
+        for (uint i = 0; i < found; ++i) gather_span(from, c, memory->spans[i], sink, memory);
     }
 }
 

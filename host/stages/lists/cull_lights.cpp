@@ -117,7 +117,7 @@ CoarseLists CullLights::enqueue(const PreparedLights& lights, const ClusterBoxes
     const auto chunks_of_cluster = static_cast<uint>(chunks);
     Blocks& by = *blocks_;
     by.cull_blocks.enqueue(groups(spans, block_group_), timer, lights,
-                           by.blocks.reserve(2 * spans * kBlocksOfSpan), by.spans.reserve(spans),
+                           by.blocks.reserve(spans * kBlocksOfSpan), by.spans.reserve(spans),
                            by.work_count.get());
     const DeviceArray<uint> work = by.work.reserve(grid.cluster_count);
     const WorkSize size = groups(groups_, tuning_.cull_group);

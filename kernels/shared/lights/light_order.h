@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The order in which kernels go through lights: along a Morton curve (Morton 1966) within cubes of
-// 32 cells along an edge.
+// The order in which kernels go through lights: along a Hilbert curve through cells. Lights beside
+// each other in the order are beside each other in space, so a few boxes hold many of them.
 #ifndef KILOLUX_SHARED_LIGHTS_LIGHT_ORDER_H
 #define KILOLUX_SHARED_LIGHTS_LIGHT_ORDER_H
 #include "kernels/shared/types.h"
@@ -9,38 +9,41 @@
 namespace kilolux {
 #endif
 
-// Cell numbers have either sign, and a key keeps 11 bits of them: cubes 64 apart share keys. Lights
-// farther than this from the origin, or with a NaN, are in cell LIGHT_CELL_FAR along that axis.
+// Cell numbers have either sign, and a key keeps 11 bits of them: cells 2048 apart share keys.
+// Lights farther than this from the origin, or with a NaN, are in cell LIGHT_CELL_FAR along that
+// axis.
 #define LIGHT_CELLS 16777216.0f
 #define LIGHT_CELL_FAR 0xffffffffu
+#define LIGHT_CELL_BIT 1024u  // the highest of a key
 
-// The six lower bits, two zeros between each.
+// The 11 lower bits, two zeros between each. The highest is shifted out.
 SHARED_FN uint spread_bits(uint x) {
-    x = x & 0x3fu;
-    x = (x | x << 8) & 0x300fu;
-    x = (x | x << 4) & 0x30c3u;
-    return (x | x << 2) & 0x9249u;
+    x = x & 0x7ffu;
+    x = (x | x << 16) & 0x70000ffu;
+    x = (x | x << 8) & 0x700f00fu;
+    x = (x | x << 4) & 0x430c30c3u;
+    return (x | x << 2) & 0x49249249u;
 }
 
-SHARED_FN uint morton_code(uint x, uint y, uint z) {
-    return spread_bits(x) | spread_bits(y) << 1 | spread_bits(z) << 2;
-}
-
-SHARED_FN uint reversed_bits(uint x) {
-    x = (x & 0x55555555u) << 1 | (x >> 1 & 0x55555555u);
-    x = (x & 0x33333333u) << 2 | (x >> 2 & 0x33333333u);
-    x = (x & 0x0f0f0f0fu) << 4 | (x >> 4 & 0x0f0f0f0fu);
-    x = (x & 0x00ff00ffu) << 8 | (x >> 8 & 0x00ff00ffu);
-    return x << 16 | x >> 16;
-}
-
-// A cell's place in the order. First 18 bits of the cube, reversed, so that neighbouring cubes are
-// far from each other: lights near the camera cost more than others, and consecutive ones are
-// culled by one work-group. Then the cell in the cube but for its last bit.
+// A cell's place along the curve but for the last of 33 bits. After J. Skilling, Programming the
+// Hilbert curve, AIP Conference Proceedings 707 (2004): the curve of each octant of a cube is the
+// cube's, exchanged and mirrored, from the largest octants to the smallest; then Gray code.
 SHARED_FN uint light_order_key(uint x, uint y, uint z) {
-    uint cube = morton_code(x >> 5, y >> 5, z >> 5);
-    uint cell = morton_code(x & 31u, y & 31u, z & 31u);
-    return (reversed_bits(cube) & 0xffffc000u) | cell >> 1;
+    for (uint bit = LIGHT_CELL_BIT; bit > 1u; bit >>= 1) {
+        uint below = bit - 1u;
+        x ^= (x & bit) != 0u ? below : 0u;
+        uint swapped = (y & bit) != 0u ? 0u : (x ^ y) & below;
+        x ^= (y & bit) != 0u ? below : swapped;
+        y ^= swapped;
+        swapped = (z & bit) != 0u ? 0u : (x ^ z) & below;
+        x ^= (z & bit) != 0u ? below : swapped;
+        z ^= swapped;
+    }
+    y ^= x;
+    z ^= y;
+    uint flip = 0u;
+    for (uint bit = LIGHT_CELL_BIT; bit > 1u; bit >>= 1) flip ^= (z & bit) != 0u ? bit - 1u : 0u;
+    return spread_bits(x ^ flip) << 1 | spread_bits(y ^ flip) | spread_bits(z ^ flip) >> 1;
 }
 
 #if defined(__cplusplus)

@@ -252,18 +252,21 @@ TEST(CullLights, HoldsAnyNumberOfLightsInOneCluster) {
         expect_all_listed(count, default_tuning(test_gpu().info));
         expect_all_listed(count, groups);
     }
+    groups.cull_group = 4;
+    expect_all_listed(300000, groups);  // more spans a chunk than work-items
 }
 
 // Whatever the order of the lights: neighbours beside each other, with jumps, of which groups skip
 // most; and lights of every size at random, of which they can skip none.
-TEST(CullLights, GroupsSkipNoLightThatReachesACluster) {
+void expect_no_light_skipped(uint count, std::initializer_list<int> groups) {
     const Gpu gpu = test_gpu();
     const auto scenarios = cull_scenarios();
     CullScenario scenario = *std::ranges::find(scenarios, "smooth", &CullScenario::name);
-    scenario.light_count = 20'000;
+    scenario.light_count = count;
     CullCase c = make_cull_case(gpu, scenario);
+    c.features.light_index_bits = count <= 65536 ? 16 : 32;
     const auto expect_all = [&] {
-        for (const int group : {1, 32, 64, 256}) {
+        for (const int group : groups) {
             SCOPED_TRACE(group);
             Tuning tuning = default_tuning(gpu.info);
             tuning.cull_group = group;
@@ -284,6 +287,13 @@ TEST(CullLights, GroupsSkipNoLightThatReachesACluster) {
     }
     expect_all();
 }
+
+TEST(CullLights, GroupsSkipNoLightThatReachesACluster) {
+    expect_no_light_skipped(20'000, {1, 32, 64, 256});
+}
+
+// Two or three spans a chunk, of which a cluster is in reach of some.
+TEST(CullLights, GroupsSkipNoSpanThatReachesACluster) { expect_no_light_skipped(140'000, {4}); }
 
 TEST(CullLights, LacksRoomOnceThenGrows) {
     const Gpu gpu = test_gpu();

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -12,6 +13,7 @@
 #include "host/render/lights/generated_lights.h"
 #include "host/render/lights/light_rows.h"
 #include "host/scene/generated/scenes.h"
+#include "kernels/shared/lights/light_order.h"
 #include "tests/support/test_gpu.h"
 
 namespace kilolux {
@@ -54,13 +56,60 @@ TEST(LightOrder, NeighboursInSpaceAreNeighbours) {
     EXPECT_LT(mean_step(sorted(lights)), 5.0);
 }
 
-// No two in one cell of the curve.
+// Culling skips spans of 2048 lights by what they reach, whatever the range is within its octave.
+TEST(LightOrder, SpansOfManyLightsAreCompact) {
+    constexpr std::size_t kSpan = 2048;
+    const auto mean_edge = [](const std::vector<SceneLight>& lights) {
+        double sum = 0.0;
+        for (std::size_t first = 0; first + kSpan <= lights.size(); first += kSpan) {
+            Box box;
+            for (std::size_t i = first; i < first + kSpan; ++i) box.add(lights[i].position);
+            const glm::dvec3 size = box.size();
+            sum += std::max({size.x, size.y, size.z});
+        }
+        return sum / static_cast<double>(lights.size() / kSpan);
+    };
+    for (const float range : {0.6f, 0.9f, 1.1f}) {  // about ten lights reach a point
+        const std::vector<SceneLight> lights = random_lights(200000, range);
+        EXPECT_GT(mean_edge(lights), 39.0);
+        const double cube = std::cbrt(40.0 * 40.0 * 40.0 * kSpan / 200000.0);
+        EXPECT_LT(mean_edge(sorted(lights)), 2.5 * cube) << range;
+    }
+}
+
+// The curve goes from each cell to one beside it; a key stands for two cells that follow each
+// other.
+TEST(LightOrder, FollowsACurveWithoutJumps) {
+    struct Cell {
+        uint key;
+        glm::ivec3 at;
+    };
+    constexpr int kEdge = 32;
+    for (const int origin : {0, 64, -kEdge, -1024}) {
+        std::vector<Cell> cells;
+        for (int i = 0; i < kEdge * kEdge * kEdge; ++i) {
+            const glm::ivec3 at =
+                glm::ivec3(i % kEdge, i / kEdge % kEdge, i / (kEdge * kEdge)) + origin;
+            cells.push_back({light_order_key(static_cast<uint>(at.x), static_cast<uint>(at.y),
+                                             static_cast<uint>(at.z)),
+                             at});
+        }
+        std::ranges::sort(cells, {}, &Cell::key);
+        for (std::size_t i = 1; i < cells.size(); ++i) {
+            ASSERT_EQ(cells[i].key - cells[0].key, i / 2) << "from " << origin << ", cell " << i;
+            const glm::ivec3 step = glm::abs(cells[i].at - cells[i - 1].at);
+            ASSERT_LE(step.x + step.y + step.z, i % 2 == 1 ? 1 : 3);
+        }
+    }
+}
+
+// No two in one cell of the curve, nor in two that follow each other on it: those share a key.
 std::vector<SceneLight> lattice_lights(std::size_t count) {
     constexpr std::size_t kEdge = 70;
     std::vector<SceneLight> lights(count);
     for (std::size_t i = 0; i < count; ++i) {
         lights[i].position = {i % kEdge, i / kEdge % kEdge, i / (kEdge * kEdge)};
-        lights[i].range = 2.0f;
+        lights[i].range = 0.5f;  // two cells from one light to the next
     }
     return lights;
 }
