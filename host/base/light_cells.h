@@ -8,11 +8,12 @@
 
 namespace kilolux {
 
-/// Edge of the cells by which lights of this range are ordered [m]: a power of two, half of the
-/// range to the range. Smaller cells would hardly tighten what a run of lights reaches, and the
-/// curve, which repeats after 2048 cells, would repeat within a scene. Its inverse is a float.
+/// Edge of the cells by which lights of this range are ordered [m]: a power of two, more than half
+/// the range, at most the range. Smaller cells would hardly tighten what a run of lights reaches,
+/// and the curve, which repeats after 2048 cells, would repeat within a scene. Its inverse is a
+/// float.
 inline double light_cell_edge(float range) {
-    return std::ldexp(1.0, std::max(std::ilogb(range), -120));
+    return std::ldexp(1.0, std::clamp(std::ilogb(range), -120, 120));
 }
 
 /// The number of the cell that x [m] lies in along an axis.

@@ -31,7 +31,8 @@ std::size_t light_index_bytes(const KernelFeatures& features);
 BuildOptions feature_options(const KernelFeatures& features);
 
 /// Work sizes by device class. Data, found by measuring (`kilolux bench --tune`). Results do not
-/// depend on them; with other pbr_lanes a GPU may round divisions and roots differently.
+/// depend on them; with other pbr_lanes a GPU may round divisions and roots differently. A
+/// certificate that is older than a parameter ships the value below.
 struct Tuning {
     int shade_rows = 1;      // rows of a shading work-group at the device's lane width: 1..16
     int shade_stage = 0;     // lights that a shading work-group stages in local memory; 0: none
@@ -56,8 +57,8 @@ struct Tuning {
     bool operator==(const Tuning&) const = default;
 };
 
-/// The same where all shading uses the device's lanes: where their number was given, and for
-/// sampled shadows, whose kernels repeat each other's picks of lights bit for bit.
+/// The tuning with pbr_lanes 0, so that all shading uses the device's lanes: where the user or the
+/// renderer sets their number, and for sampled shadows, whose kernels must pick the same lights.
 Tuning with_device_lanes(Tuning tuning);
 
 /// Work-items of a group: `wanted`, a power of two, or the largest one below it that the device

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The common part of both forms of cull_lights, which list the lights of every coarse cluster:
-//   cull_lights_count   pairs by (chunk of lights, cluster)
-//   cull_lights_offset  where each chunk's pairs begin within each cluster, and its total
-//   (prefix_sum over clusters)
-//   cull_lights_fill    writes the light indices
+// The common part of both forms of cull_lights, which list the lights of every coarse cluster: they
+// count pairs of a light and a cluster, sum up the counts over clusters, and fill in the lights.
 // Lists ascend by light index, and are the same for every form, group size and number of chunks.
 #ifndef KILOLUX_DEVICE_CULL_LIGHTS_H
 #define KILOLUX_DEVICE_CULL_LIGHTS_H
 #include "kernels/device/arguments.h"
-#include "kernels/device/chunk_starts.h"
 #include "kernels/lists/light_reach.h"
 
 typedef struct ClusterBoxes {
@@ -76,15 +72,6 @@ static inline bool is_listed(BoxedCluster c, global const ShadeLight* lights,
                                       (float3)(c.x.y, c.y.y, -c.z.x));
 #endif
     return reaches;
-}
-
-// One work-item for VW clusters: chunk counts become chunk starts within the cluster.
-kernel void cull_lights_offset(
-    uint cluster_count, uint chunk_count,
-    global uint* restrict cursors,   // in: pairs, out: starts [chunk_count][cursor_stride]
-    global uint* restrict counts) {  // out [cursor_stride]: pairs of each cluster
-    uint cluster = (uint)get_global_id(0) * VW;
-    if (cluster < cluster_count) chunk_starts(cursors, cluster_count, chunk_count, cluster, counts);
 }
 
 // The oracle: every light against every cluster. One work-item a cluster. With `fill` 0 it counts,

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// cull_lights for devices that run many work-groups at once: each cluster gathers its lights. A
-// work-group takes a cluster and a chunk of the lights at a time and skips what cannot reach the
-// cluster: spans, blocks, lights. Neighbours among the lights are neighbours in space
-// (light_order.h), so that most are skipped; where they are not, lists are the same.
-//   cull_lights_blocks    the extents of blocks and spans
-//   cull_lights_clusters  which clusters need a list
+// cull_lights for devices that run many work-groups at once: each cluster gathers its lights. What
+// cannot reach a cluster is skipped: segments, spans, blocks, lights. Neighbours among the lights
+// are neighbours in space (light_order.h), so that most are skipped; where they are not, lists are
+// the same.
+//   cull_lights_blocks  the extents of blocks and spans
+//   cull_lights_tasks   each cluster's tasks: the segments of lights that can reach it
+//   cull_lights_count   the lights of each task
+//   cull_lights_starts  where each task's lights begin within its cluster's, and their total
+//   (prefix_sum over clusters)
+//   cull_lights_fill    writes the light indices
 #include "kernels/device/group_ballot.h"
 #include "kernels/lists/cull_lights.h"
 
-// The host defines BLOCK, the lights of a block, SPAN, the blocks of a span, and BLOCK_GROUP, the
-// work-items that find the blocks of a span.
+// The host defines BLOCK, the lights of a block, SPAN, the blocks of a span, BLOCK_GROUP, the
+// work-items that join a span's extents, and SEGMENTS, the most segments; a multiple of 32. A
+// segment has equally many spans as any other, or one more.
 #define SPAN_LIGHTS (BLOCK * SPAN)
 
 // The extent of no light: joined with another one, it is the other one.
@@ -55,7 +60,7 @@ static inline uint span_count(uint light_count) {
 kernel void cull_lights_blocks(LIGHT_ARGS(const),
                                global LightExtent* restrict blocks,  // out [spans][SPAN]
                                global LightExtent* restrict spans,   // out [spans]
-                               global uint* restrict work_count) {   // out [1]: 0
+                               global uint* restrict task_count) {   // out [1]: 0
     local LightExtent parts[BLOCK_GROUP];
     uint span = get_group_id(0);
     uint item = get_local_id(0), lead = item / BLOCK_ITEMS * BLOCK_ITEMS;
@@ -80,24 +85,75 @@ kernel void cull_lights_blocks(LIGHT_ARGS(const),
     }
     if (item != 0u) return;
     spans[span] = parts[0];
-    if (span == 0u) work_count[0] = 0u;
+    if (span == 0u) task_count[0] = 0u;
 }
 
-// One work-item a cluster. Counts of clusters without a list become 0.
-kernel void cull_lights_clusters(uint cluster_count, uint chunk_count,
-                                 global const uchar* restrict occupied,  // [cluster_count], or null
-                                 global uint* restrict cursors,  // out [chunk_count][cursor_stride]
-                                 global uint* restrict work_count,  // in/out [1]
-                                 global uint* restrict work) {      // out: clusters, in any order
+// ByGroup of cull_lights.h. A task: cluster * segment_count + segment; there are at most
+// cluster_count * segment_count.
+#define TASK_ARGS(access)                                                                  \
+    uint segment_count, global const LightExtent *restrict blocks,                         \
+        global const LightExtent *restrict spans, global access uint *restrict task_count, \
+        global access uint *restrict tasks
+
+// The spans of a segment: [first, end).
+static inline uint2 spans_of_segment(uint light_count, uint segment, uint segment_count) {
+    return part_of_chunk(span_count(light_count), segment, segment_count);
+}
+
+// One work-group a cluster. Tasks of a cluster lie beside each other, ascending by segment; which
+// cluster's come first is open.
+kernel void cull_lights_tasks(
+    uint light_count, BOX_ARGS(const),
+    global const uchar* restrict occupied,  // [cluster_count], or null
+    TASK_ARGS(),                            // in, out: task_count; out: tasks
+    global uint* restrict cluster_tasks) {  // out [cluster_count][2]: first, number
+    local uint reaching[SEGMENTS / 32];     // a bit for each segment
+    local uint begin;
+    uint item = get_local_id(0), cluster = get_group_id(0);
+    ClusterBoxes boxes = {columns, rows, depths, occupied};
+    BoxedCluster c = boxed_cluster(grid, boxes, cluster);
+    uint end = needs_list(boxes, cluster) ? segment_count : 0u, words = (end + 31u) / 32u;
+    for (uint word = item; word < words; word += GROUP) reaching[word] = 0u;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    for (uint segment = item; segment < end; segment += GROUP) {
+        uint2 from = spans_of_segment(light_count, segment, segment_count);
+        uint reaches = 0u;
+        for (uint span = from.x; span < from.y; ++span) reaches |= extent_holds(spans[span], c);
+        if (reaches != 0u) atomic_or(reaching + segment / 32u, 1u << (segment % 32u));
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);  // the bits are there
+    if (item == 0u) {
+        uint total = 0u;
+        for (uint word = 0; word < words; ++word) total += popcount(reaching[word]);
+        begin = total > 0u ? atomic_add(task_count, total) : 0u;
+        cluster_tasks[2u * cluster] = begin;
+        cluster_tasks[2u * cluster + 1u] = total;
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);  // the first place is there
+    for (uint segment = item; segment < end; segment += GROUP) {
+        uint bits = reaching[segment / 32u], bit = 1u << (segment % 32u);
+        if ((bits & bit) == 0u) continue;
+        uint place = begin + popcount(bits & (bit - 1u));
+        for (uint word = 0; word < segment / 32u; ++word) place += popcount(reaching[word]);
+        tasks[place] = cluster * segment_count + segment;
+    }
+}
+
+// One work-item a cluster.
+kernel void cull_lights_starts(uint cluster_count,
+                               global const uint* restrict cluster_tasks,  // [cluster_count][2]
+                               global const uint* restrict task_lights,    // [tasks]
+                               global uint* restrict task_starts,          // out [tasks]
+                               global uint* restrict counts) {             // out [cluster_count]
     uint cluster = get_global_id(0);
     if (cluster >= cluster_count) return;
-    ClusterBoxes boxes = {0, 0, 0, occupied};
-    if (needs_list(boxes, cluster)) {
-        work[atomic_inc(work_count)] = cluster;
-        return;
+    uint first = cluster_tasks[2u * cluster], end = first + cluster_tasks[2u * cluster + 1u];
+    uint sum = 0u;
+    for (uint task = first; task < end; ++task) {
+        task_starts[task] = sum;
+        sum += task_lights[task];
     }
-    uint stride = cursor_stride(cluster_count);
-    for (uint chunk = 0; chunk < chunk_count; ++chunk) cursors[chunk * stride + cluster] = 0u;
+    counts[cluster] = sum;
 }
 
 typedef struct LightBlocks {
@@ -111,8 +167,7 @@ typedef struct LightBlocks {
 
 typedef struct GroupMemory {
     uint ballots[BALLOT_WORDS(GROUP)];
-    uint spans[GROUP];   // that can reach the cluster
-    uchar blocks[SPAN];  // of a span, that can reach it
+    uchar blocks[SPAN];  // of a span, that can reach the cluster
 } GroupMemory;
 
 // The target of a work-group's pairs: counted, or filled in.
@@ -155,66 +210,47 @@ static inline void gather_span(LightBlocks from, BoxedCluster c, uint span, Grou
     }
 }
 
-// Of at most GROUP spans from `first` on, those that can reach the cluster, ascending, in local
-// memory; returns their number.
-static inline uint find_spans(LightBlocks from, BoxedCluster c, uint first, uint end,
-                              GroupSink* sink, local GroupMemory* memory) {
-    uint span = first + (uint)get_local_id(0);
-    uint flag = extent_holds(from.spans[min(span, end - 1u)], c) & select(0u, 1u, span < end);
-    GroupBallot ballot = group_ballot(flag, GROUP, sink->turn++, memory->ballots);
-    if (ballot.flag != 0u) memory->spans[ballot.before] = span;
-    barrier(CLK_LOCAL_MEM_FENCE);  // the spans are there
-    return ballot.total;
-}
-
-static inline void gather_chunk(LightBlocks from, BoxedCluster c, uint chunk, uint chunk_count,
-                                GroupSink* sink, local GroupMemory* memory) {
-    uint2 spans = part_of_chunk(span_count(from.count), chunk, chunk_count);
-    for (uint first = spans.x; first < spans.y; first += GROUP) {
-        uint found = find_spans(from, c, first, spans.y, sink, memory);
-        for (uint i = 0; i < found; ++i) gather_span(from, c, memory->spans[i], sink, memory);
+static inline void gather_task(LightBlocks from, BoxedCluster c, uint segment, uint segment_count,
+                               GroupSink* sink, local GroupMemory* memory) {
+    uint2 spans = spans_of_segment(from.count, segment, segment_count);
+    for (uint span = spans.x; span < spans.y; ++span) {
+        if (extent_holds(from.spans[span], c) != 0u) gather_span(from, c, span, sink, memory);
     }
 }
 
-#define BLOCK_ARGS                                                                       \
-    global const LightExtent *restrict blocks, global const LightExtent *restrict spans, \
-        global const uint *restrict work_count, global const uint *restrict work
 #define BLOCKS_OF_ARGS ((LightBlocks){lights, bounds, extents, blocks, spans, light_count})
 
-// Work-groups share clusters and chunks evenly.
-kernel void cull_lights_count(LIGHT_ARGS(const), BOX_ARGS(const), BLOCK_ARGS, uint chunk_count,
-                              global uint* restrict cursors) {  // out [chunk_count][cursor_stride]
+// Work-groups share the tasks evenly.
+kernel void cull_lights_count(LIGHT_ARGS(const), BOX_ARGS(const), TASK_ARGS(const),
+                              global uint* restrict task_lights) {  // out [tasks]
     local GroupMemory memory;
     clear_ballots(GROUP, GROUP, memory.ballots);
     barrier(CLK_LOCAL_MEM_FENCE);
     ClusterBoxes boxes = {columns, rows, depths, 0};
     GroupSink sink = {0, 0u, 0u, 0u};
-    uint items = work_count[0] * chunk_count;
-    for (uint i = get_group_id(0); i < items; i += get_num_groups(0)) {
-        uint cluster = work[i / chunk_count], chunk = i % chunk_count;
+    uint end = task_count[0];
+    for (uint i = get_group_id(0); i < end; i += get_num_groups(0)) {
+        uint cluster = tasks[i] / segment_count, segment = tasks[i] % segment_count;
         sink.place = 0u;
-        gather_chunk(BLOCKS_OF_ARGS, boxed_cluster(grid, boxes, cluster), chunk, chunk_count, &sink,
-                     &memory);
-        if (get_local_id(0) == 0) {
-            cursors[chunk * cursor_stride(grid.cluster_count) + cluster] = sink.place;
-        }
+        gather_task(BLOCKS_OF_ARGS, boxed_cluster(grid, boxes, cluster), segment, segment_count,
+                    &sink, &memory);
+        if (get_local_id(0) == 0) task_lights[i] = sink.place;
     }
 }
 
-kernel void cull_lights_fill(LIGHT_ARGS(const), BOX_ARGS(const), BLOCK_ARGS, uint chunk_count,
-                             global const uint* restrict cursors,  // starts
-                             COARSE_LIST_ARGS()) {                 // out: lists
+kernel void cull_lights_fill(LIGHT_ARGS(const), BOX_ARGS(const), TASK_ARGS(const),
+                             global const uint* restrict task_starts,  // [tasks]
+                             COARSE_LIST_ARGS()) {                     // out: lists
     local GroupMemory memory;
     clear_ballots(GROUP, GROUP, memory.ballots);
     barrier(CLK_LOCAL_MEM_FENCE);
     ClusterBoxes boxes = {columns, rows, depths, 0};
     GroupSink sink = {coarse_lists, 0u, coarse_capacity, 0u};
-    uint items = work_count[0] * chunk_count;
-    for (uint i = get_group_id(0); i < items; i += get_num_groups(0)) {
-        uint cluster = work[i / chunk_count], chunk = i % chunk_count;
-        uint start = cursors[chunk * cursor_stride(grid.cluster_count) + cluster];
-        sink.place = coarse_offsets[cluster] + start;
-        gather_chunk(BLOCKS_OF_ARGS, boxed_cluster(grid, boxes, cluster), chunk, chunk_count, &sink,
-                     &memory);
+    uint end = task_count[0];
+    for (uint i = get_group_id(0); i < end; i += get_num_groups(0)) {
+        uint cluster = tasks[i] / segment_count, segment = tasks[i] % segment_count;
+        sink.place = coarse_offsets[cluster] + task_starts[i];
+        gather_task(BLOCKS_OF_ARGS, boxed_cluster(grid, boxes, cluster), segment, segment_count,
+                    &sink, &memory);
     }
 }

@@ -2,6 +2,11 @@
 // cull_lights for devices whose work-items work alone: a stable counting sort of (light, cluster)
 // pairs. A work-item walks one contiguous chunk of the lights in order, so lists ascend by light
 // index without atomics.
+//   cull_lights_count   pairs by (chunk of lights, cluster)
+//   cull_lights_offset  where each chunk's pairs begin within each cluster, and its total
+//   (prefix_sum over clusters)
+//   cull_lights_fill    writes the light indices
+#include "kernels/device/chunk_starts.h"
 #include "kernels/lists/cull_lights.h"
 
 // The target of pairs: counted, or filled in.
@@ -143,4 +148,13 @@ kernel void cull_lights_fill(
     PairSink sink = {cursors + chunk_of_item() * cursor_stride(grid.cluster_count), coarse_offsets,
                      coarse_lists, coarse_capacity};
     walk_chunk(lights, bounds, extents, light_count, grid, boxes, sink, true);
+}
+
+// One work-item for VW clusters: chunk counts become chunk starts within the cluster.
+kernel void cull_lights_offset(
+    uint cluster_count, uint chunk_count,
+    global uint* restrict cursors,   // in: pairs, out: starts [chunk_count][cursor_stride]
+    global uint* restrict counts) {  // out [cursor_stride]: pairs of each cluster
+    uint cluster = (uint)get_global_id(0) * VW;
+    if (cluster < cluster_count) chunk_starts(cursors, cluster_count, chunk_count, cluster, counts);
 }

@@ -170,8 +170,8 @@ TEST(Tails, ABoundIsNothingWhereNothingIsLost) {
     }
 }
 
-// Over many seeds, since pixels share picks and err together: each pixel's mean is the exact one
-// within its own error, and estimated errors equal the actual ones.
+// Over many seeds, since pixels share picks, so that their errors are correlated: each pixel's mean
+// is the exact one within its own error, and estimated errors equal the actual ones.
 void expect_right_in_the_mean(const Scene& scene, Shadows shadows, int seeds) {
     RenderSettings settings = tail_settings(Tails::exact);
     settings.shadows = shadows == Shadows::off ? Shadows::off : Shadows::exact;

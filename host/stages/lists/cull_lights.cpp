@@ -10,11 +10,9 @@ constexpr std::string_view kBruteForce = "cull_lights_brute_force";
 // Initial room: enough for most scenes' first frame.
 constexpr std::size_t kFirstCoarseEntries = std::size_t{1} << 20;
 
-// BLOCK and SPAN of kernels/lists/cull_lights_by_group.cl.
-constexpr std::size_t kLightsOfBlock = 32, kBlocksOfSpan = 64;
+// BLOCK, SPAN and SEGMENTS of kernels/lists/cull_lights_by_group.cl.
+constexpr std::size_t kLightsOfBlock = 32, kBlocksOfSpan = 64, kMostSegments = 1024;
 constexpr std::size_t kLightsOfSpan = kLightsOfBlock * kBlocksOfSpan;
-// Work-groups then have even shares.
-constexpr std::size_t kMostChunksOfCluster = 32;
 // NVIDIA H100, a million lights: 8, 16, 32 take 0.90, 0.61, 0.56 ms.
 constexpr std::size_t kGroupsOfUnit = 32;
 
@@ -32,13 +30,15 @@ Tuning with_whole_blocks(Tuning tuning, const DeviceInfo& device) {
     return tuning;
 }
 
-constexpr int kBlockGroup = 256;  // find the blocks of a span: few lights each, loaded at once
+// Work-items that join a span's extents: few each, loaded at once.
+constexpr int kBlockGroup = 256;
 
 BuildOptions cull_options(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features) {
     return BuildOptions()
         .define("GROUP", tuning.cull_group)
         .define("BLOCK", kLightsOfBlock)
         .define("SPAN", kBlocksOfSpan)
+        .define("SEGMENTS", kMostSegments)
         .define("BLOCK_GROUP", fitting_group(kBlockGroup, gpu.info))
         .define("HAS_SPOT_LIGHTS", features.spot_lights)
         .define("LIGHT_INDEX", light_index_type(features));
@@ -46,98 +46,104 @@ BuildOptions cull_options(const Gpu& gpu, const Tuning& tuning, const KernelFeat
 
 }  // namespace
 
-CullLights::CullLights(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
+CullLights::CullLights(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
+                       std::size_t most_tasks)
     : tuning_(with_whole_blocks(tuning, gpu.info)),
+      most_tasks_(most_tasks),
       groups_(kGroupsOfUnit * static_cast<std::size_t>(gpu.info.compute_units)),
       block_group_(fitting_group(kBlockGroup, gpu.info)),
       program_(build_program(gpu, program_name(tuning_), cull_options(gpu, tuning_, features))),
       count_(gpu, program_, kCullLightsStage, "cull_lights_count"),
-      offset_(gpu, program_, kCullLightsStage, "cull_lights_offset"),
+      offset_(gpu, program_, kCullLightsStage,
+              tuning_.cull_group == 1 ? "cull_lights_offset" : "cull_lights_starts"),
       fill_(gpu, program_, kCullLightsStage, "cull_lights_fill"),
       brute_force_(gpu, program_, kBruteForce, "cull_lights_brute_force"),
       cursors_(gpu, kCullLightsStage),
       lists_(gpu, tuning, kCullLightsStage, "(light, cluster) pairs", light_index_bytes(features)) {
-    if (tuning_.cull_group > 1) blocks_.emplace(gpu, program_);
+    if (tuning_.cull_group > 1) by_group_.emplace(gpu, program_);
     lists_.reserve(kFirstCoarseEntries);
 }
 
-CullLights::Blocks::Blocks(const Gpu& gpu, const KernelProgram& program)
-    : cull_blocks(gpu, program, kCullLightsStage, "cull_lights_blocks"),
-      cull_clusters(gpu, program, kCullLightsStage, "cull_lights_clusters"),
+CullLights::ByGroup::ByGroup(const Gpu& gpu, const KernelProgram& program)
+    : find_blocks(gpu, program, kCullLightsStage, "cull_lights_blocks"),
+      find_tasks(gpu, program, kCullLightsStage, "cull_lights_tasks"),
       blocks(gpu, kCullLightsStage),
       spans(gpu, kCullLightsStage),
-      work_count(gpu, kCullLightsStage),
-      work(gpu, kCullLightsStage) {
-    work_count.reserve(1);
+      task_count(gpu, kCullLightsStage),
+      tasks(gpu, kCullLightsStage),
+      of_clusters(gpu, kCullLightsStage),
+      lights(gpu, kCullLightsStage),
+      starts(gpu, kCullLightsStage) {
+    task_count.reserve(1);
 }
 
-std::size_t CullLights::chunk_count(std::size_t lights) const {
-    if (blocks_) return std::min(span_count(lights), kMostChunksOfCluster);
-    return std::clamp<std::size_t>(lights, 1, static_cast<std::size_t>(tuning_.cull_chunks));
-}
-
-// Of kernels/lists/cull_lights.h: as many vectors of lanes as hold a chunk's clusters.
+// Of kernels/device/chunk_starts.h: as many vectors of lanes as hold a chunk's clusters.
 std::size_t CullLights::cursor_stride(const ClusterGrid& grid) const {
     return round_up(grid.cluster_count, offset_.lanes());
+}
+
+// A segment is a span, while there is room for a task of each cluster and span.
+std::size_t CullLights::segment_count(std::size_t lights, const ClusterGrid& grid) const {
+    const std::size_t room = most_tasks_ / std::max<std::size_t>(grid.cluster_count, 1);
+    return std::min(span_count(lights), std::clamp<std::size_t>(room, 1, kMostSegments));
 }
 
 CoarseLists CullLights::lists_so_far(const DeviceArray<uint>& offsets) const {
     return {offsets, lists_.entries<std::byte>(), lists_.capacity(), total()};
 }
 
-CoarseLists CullLights::sort_pairs(const ClusterGrid& grid, std::size_t chunks, StageTimer& timer,
-                                   auto&& count, auto&& fill) {
+CoarseLists CullLights::enqueue(const PreparedLights& lights, const ClusterBoxes& boxes,
+                                StageTimer& timer, const DeviceArray<std::uint8_t>& occupied) {
+    return by_group_ ? enqueue_by_group(lights, boxes, timer, occupied)
+                     : enqueue_by_item(lights, boxes, timer, occupied);
+}
+
+CoarseLists CullLights::enqueue_by_item(const PreparedLights& lights, const ClusterBoxes& boxes,
+                                        StageTimer& timer,
+                                        const DeviceArray<std::uint8_t>& occupied) {
+    const ClusterGrid& grid = boxes.grid;
+    const auto chunks =
+        std::clamp<std::size_t>(lights.count, 1, static_cast<std::size_t>(tuning_.cull_chunks));
+    const WorkSize size = groups(chunks, 1);
     const std::size_t stride = cursor_stride(grid);
     const DeviceArray<uint> cursors = cursors_.reserve(chunks * stride);
-    const DeviceArray<uint> counts = lists_.counts(stride);
-    count(cursors);
+    count_.enqueue(size, timer, lights, boxes, occupied, cursors);
     offset_.enqueue(offset_.vector_items(stride, tuning_.light_group), timer, grid.cluster_count,
-                    static_cast<uint>(chunks), cursors, counts);
-    CoarseLists out = lists_so_far(lists_.enqueue_offsets(grid.cluster_count, timer));
-    fill(cursors, out);
+                    static_cast<uint>(chunks), cursors, lists_.counts(stride));
+    const CoarseLists out = lists_so_far(lists_.enqueue_offsets(grid.cluster_count, timer));
+    fill_.enqueue(size, timer, lights, boxes, occupied, cursors, out);
     return out;
 }
 
-CoarseLists CullLights::enqueue(const PreparedLights& lights, const ClusterBoxes& boxes,
-                                StageTimer& timer, const DeviceArray<std::uint8_t>& occupied) {
+CoarseLists CullLights::enqueue_by_group(const PreparedLights& lights, const ClusterBoxes& boxes,
+                                         StageTimer& timer,
+                                         const DeviceArray<std::uint8_t>& occupied) {
     const ClusterGrid& grid = boxes.grid;
-    const std::size_t chunks = chunk_count(lights.count);
-    if (!blocks_) {
-        const WorkSize size = groups(chunks, 1);
-        return sort_pairs(
-            grid, chunks, timer,
-            [&](const auto& cursors) {
-                count_.enqueue(size, timer, lights, boxes, occupied, cursors);
-            },
-            [&](const auto& cursors, const CoarseLists& out) {
-                fill_.enqueue(size, timer, lights, boxes, occupied, cursors, out);
-            });
-    }
     const std::size_t spans = span_count(lights.count);
-    const auto chunks_of_cluster = static_cast<uint>(chunks);
-    Blocks& by = *blocks_;
-    by.cull_blocks.enqueue(groups(spans, block_group_), timer, lights,
+    ByGroup& by = *by_group_;
+    by.segment_count = static_cast<uint>(segment_count(lights.count, grid));
+    const std::size_t clusters = grid.cluster_count, room = by.segment_count * clusters;
+    by.find_blocks.enqueue(groups(spans, block_group_), timer, lights,
                            by.blocks.reserve(spans * kBlocksOfSpan), by.spans.reserve(spans),
-                           by.work_count.get());
-    const DeviceArray<uint> work = by.work.reserve(grid.cluster_count);
+                           by.task_count.get());
+    const DeviceArray<uint> of_clusters = by.of_clusters.reserve(2 * clusters);
+    by.tasks.reserve(room);
+    by.find_tasks.enqueue(groups(clusters, tuning_.cull_group), timer, lights.count, boxes,
+                          occupied, by, of_clusters);
     const WorkSize size = groups(groups_, tuning_.cull_group);
-    return sort_pairs(
-        grid, chunks, timer,
-        [&](const auto& cursors) {
-            by.cull_clusters.enqueue(items(grid.cluster_count, tuning_.light_group), timer,
-                                     grid.cluster_count, chunks_of_cluster, occupied, cursors,
-                                     by.work_count.get(), work);
-            count_.enqueue(size, timer, lights, boxes, by, chunks_of_cluster, cursors);
-        },
-        [&](const auto& cursors, const CoarseLists& out) {
-            fill_.enqueue(size, timer, lights, boxes, by, chunks_of_cluster, cursors, out);
-        });
+    const DeviceArray<uint> task_lights = by.lights.reserve(room), starts = by.starts.reserve(room);
+    count_.enqueue(size, timer, lights, boxes, by, task_lights);
+    offset_.enqueue(items(grid.cluster_count, tuning_.light_group), timer, grid.cluster_count,
+                    of_clusters, task_lights, starts, lists_.counts(grid.cluster_count));
+    const CoarseLists out = lists_so_far(lists_.enqueue_offsets(grid.cluster_count, timer));
+    fill_.enqueue(size, timer, lights, boxes, by, starts, out);
+    return out;
 }
 
 CoarseLists CullLights::brute_force(const PreparedLights& lights, const ClusterBoxes& boxes,
                                     StageTimer& timer) {
     const ClusterGrid& grid = boxes.grid;
-    const DeviceArray<uint> counts = lists_.counts(cursor_stride(grid));
+    const DeviceArray<uint> counts = lists_.counts(grid.cluster_count);
     const auto run = [&](uint fill, const CoarseLists& out) {
         brute_force_.enqueue(items(grid.cluster_count, tuning_.light_group), timer, lights, boxes,
                              fill, counts, out);

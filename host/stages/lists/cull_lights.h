@@ -15,14 +15,17 @@ inline constexpr StageInfo kCullLightsStage = {"cull_lights", StageGroup::lists,
 
 /// Lists, for each coarse cluster, the lights whose sphere (and cone) touches the cluster's box.
 ///
-/// A stable counting sort: count by (chunk, cluster), prefix sum, fill. by_item: a work-item walks
-/// a chunk of lights. by_group: a work-group takes a cluster and a chunk. No light is ever left
-/// out: the lists have as many entries as there are pairs. enqueue() works with the room of the
-/// last frame; when that was too little, fits() grows it and the caller enqueues the frame's lists
-/// again.
+/// A stable counting sort: count, prefix sum, fill. by_item: a work-item walks a chunk of lights.
+/// by_group: a work-group takes a cluster and a segment of the lights that can reach it. No light
+/// is ever left out: the lists have as many entries as there are pairs. enqueue() works with the
+/// room of the last frame; when that was too little, fits() grows it and the caller enqueues the
+/// frame's lists again.
 class CullLights {
  public:
-    CullLights(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
+    /// most_tasks: by_group, that there is room for where each cluster may have more than one:
+    /// 12 bytes each. Most clusters have few.
+    CullLights(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
+               std::size_t most_tasks = std::size_t{1} << 22);
 
     /// Enqueues only. Lists ascend by light index within a cluster, whatever the tuning.
     /// `occupied`: ActiveClusters'; other clusters get empty lists. Null: all get lists.
@@ -47,35 +50,39 @@ class CullLights {
 
  private:
     std::size_t cursor_stride(const ClusterGrid& grid) const;
-    std::size_t chunk_count(std::size_t lights) const;
+    std::size_t segment_count(std::size_t lights, const ClusterGrid& grid) const;
     CoarseLists lists_so_far(const DeviceArray<uint>& offsets) const;
-    // Makes coarse lists of the counts by chunk and cluster that count() enqueues, with
-    // fill(lists).
-    CoarseLists sort_pairs(const ClusterGrid& grid, std::size_t chunks, StageTimer& timer,
-                           auto&& count, auto&& fill);
+    CoarseLists enqueue_by_item(const PreparedLights& lights, const ClusterBoxes& boxes,
+                                StageTimer& timer, const DeviceArray<std::uint8_t>& occupied);
+    CoarseLists enqueue_by_group(const PreparedLights& lights, const ClusterBoxes& boxes,
+                                 StageTimer& timer, const DeviceArray<std::uint8_t>& occupied);
 
-    // What work-groups skip by, and the clusters that they take.
-    struct Blocks {
-        Blocks(const Gpu& gpu, const KernelProgram& program);
-        Kernel cull_blocks, cull_clusters;
+    // What work-groups skip by, and their tasks: clusters and segments of lights that reach them.
+    struct ByGroup {
+        ByGroup(const Gpu& gpu, const KernelProgram& program);
+        Kernel find_blocks, find_tasks;
         GrowingArray<LightExtent> blocks, spans;
-        GrowingArray<uint> work_count, work;
+        uint segment_count = 0;
+        GrowingArray<uint> task_count, tasks, of_clusters;
+        GrowingArray<uint> lights, starts;  // of each task
 
-        void each(auto&& set) const {  // BLOCK_ARGS of kernels/lists/cull_lights_by_group.cl
+        void each(auto&& set) const {  // TASK_ARGS of kernels/lists/cull_lights_by_group.cl
+            set("segment_count", segment_count);
             set("blocks", blocks.get());
             set("spans", spans.get());
-            set("work_count", work_count.get());
-            set("work", work.get());
+            set("task_count", task_count.get());
+            set("tasks", tasks.get());
         }
     };
 
     Tuning tuning_;
-    std::size_t groups_;  // that share the clusters
-    int block_group_;     // work-items that find the blocks of a span
+    std::size_t most_tasks_;
+    std::size_t groups_;  // that share the tasks
+    int block_group_;     // work-items that join a span's extents
     KernelProgram program_;
     Kernel count_, offset_, fill_, brute_force_;
-    std::optional<Blocks> blocks_;  // of work-groups
-    GrowingArray<uint> cursors_;
+    std::optional<ByGroup> by_group_;
+    GrowingArray<uint> cursors_;  // by_item
     CountedList lists_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The order in which kernels go through lights: along a Hilbert curve through cells. Lights beside
-// each other in the order are beside each other in space, so a few boxes hold many of them.
+// The order in which kernels go through lights: along a Hilbert curve through cells. Neighbours in
+// the order are neighbours in space, so the box of a run of lights is small.
 #ifndef KILOLUX_SHARED_LIGHTS_LIGHT_ORDER_H
 #define KILOLUX_SHARED_LIGHTS_LIGHT_ORDER_H
 #include "kernels/shared/types.h"
@@ -10,13 +10,13 @@ namespace kilolux {
 #endif
 
 // Cell numbers have either sign, and a key keeps 11 bits of them: cells 2048 apart share keys.
-// Lights farther than this from the origin, or with a NaN, are in cell LIGHT_CELL_FAR along that
-// axis.
+// Lights LIGHT_CELLS cells or more from the origin, or with a NaN, are in cell LIGHT_CELL_FAR along
+// that axis.
 #define LIGHT_CELLS 16777216.0f
 #define LIGHT_CELL_FAR 0xffffffffu
 #define LIGHT_CELL_BIT 1024u  // the highest of a key
 
-// The 11 lower bits, two zeros between each. The highest is shifted out.
+// The 11 lower bits, two zeros between each.
 SHARED_FN uint spread_bits(uint x) {
     x = x & 0x7ffu;
     x = (x | x << 16) & 0x70000ffu;
@@ -25,7 +25,7 @@ SHARED_FN uint spread_bits(uint x) {
     return (x | x << 2) & 0x49249249u;
 }
 
-// A cell's place along the curve but for the last of 33 bits. After J. Skilling, Programming the
+// The upper 32 of the 33 bits of a cell's place along the curve. After J. Skilling, Programming the
 // Hilbert curve, AIP Conference Proceedings 707 (2004): the curve of each octant of a cube is the
 // cube's, exchanged and mirrored, from the largest octants to the smallest; then Gray code.
 SHARED_FN uint light_order_key(uint x, uint y, uint z) {

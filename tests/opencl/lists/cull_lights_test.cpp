@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <random>
 
 #include "tests/opencl/lists/cull_scenarios.h"
 #include "tests/support/full.h"
@@ -253,11 +254,11 @@ TEST(CullLights, HoldsAnyNumberOfLightsInOneCluster) {
         expect_all_listed(count, groups);
     }
     groups.cull_group = 4;
-    expect_all_listed(300000, groups);  // more spans a chunk than work-items
+    expect_all_listed(300000, groups);  // more segments than work-items
 }
 
-// Whatever the order of the lights: neighbours beside each other, with jumps, of which groups skip
-// most; and lights of every size at random, of which they can skip none.
+// Lists by groups are those of brute force, whatever the order of the lights: of every size at
+// random, which groups cannot skip; along rays, of which they skip most.
 void expect_no_light_skipped(uint count, std::initializer_list<int> groups) {
     const Gpu gpu = test_gpu();
     const auto scenarios = cull_scenarios();
@@ -292,8 +293,42 @@ TEST(CullLights, GroupsSkipNoLightThatReachesACluster) {
     expect_no_light_skipped(20'000, {1, 32, 64, 256});
 }
 
-// Two or three spans a chunk, of which a cluster is in reach of some.
+// More spans than work-items of a group.
 TEST(CullLights, GroupsSkipNoSpanThatReachesACluster) { expect_no_light_skipped(140'000, {4}); }
+
+// With room for fewer tasks a segment has several spans, also of different numbers.
+TEST(CullLights, ListsAreTheSameForAnyRoomOfTasks) {
+    const Gpu gpu = test_gpu();
+    const View view = make_view(ViewShape{});
+    const ClusterGrid grid = make_cluster_grid({16, 9, 8, 0.1f, 100.0f, 0.0f}, 64, 48);
+    std::vector<Light> lights;
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> side(-1.0, 1.0), far(0.1, 60.0);
+    for (int i = 0; i < 11000; ++i) {  // six spans
+        const double depth = far(random);
+        lights.push_back(point_light(
+            world_from_view(view, {side(random) * depth, side(random) * depth, -depth}), 1.5));
+    }
+    StageTimer timer;
+    PrepareLights prepare(gpu, default_tuning(gpu.info));
+    BuildClusters build(gpu);
+    const PreparedLights prepared = prepare.enqueue(upload_lights(gpu, lights), view, grid, timer);
+    const ClusterBoxes boxes = build.enqueue(view, grid, timer);
+    const auto lists_of_room = [&](int group, std::size_t tasks) {
+        Tuning tuning = default_tuning(gpu.info);
+        tuning.cull_group = group;
+        CullLights cull(gpu, tuning, {}, tasks * grid.cluster_count);
+        const CoarseLists lists = cull.enqueue(prepared, boxes, timer);
+        EXPECT_TRUE(cull.fits());
+        return std::pair(download<uint>(gpu, lists.offsets, grid.cluster_count + 1),
+                         download<std::uint16_t>(gpu, lists.lists, cull.pairs()));
+    };
+    const auto expected = lists_of_room(1, 0);
+    EXPECT_GT(expected.second.size(), lights.size());
+    for (const std::size_t tasks : {0u, 1u, 2u, 4u, 5u, 6u, 100u}) {
+        EXPECT_EQ(lists_of_room(32, tasks), expected) << tasks << " tasks a cluster";
+    }
+}
 
 TEST(CullLights, LacksRoomOnceThenGrows) {
     const Gpu gpu = test_gpu();
