@@ -149,7 +149,7 @@ TEST(CullLights, NoLightIsMissingByFloat64AndFewAreListedInVain) {
     EXPECT_GT(sum.reaching, 1'000'000u);
 }
 
-TEST(CullLights, ListsOfOccupiedClustersAreThoseOfAllAndOthersAreEmpty) {
+void expect_lists_of_occupied_clusters(const Tuning& tuning) {
     const Gpu gpu = test_gpu();
     std::uint64_t left_out = 0, kept = 0;
     for (const CullScenario& scenario : cull_scenarios()) {
@@ -160,7 +160,7 @@ TEST(CullLights, ListsOfOccupiedClustersAreThoseOfAllAndOthersAreEmpty) {
         const HostLists all = download_lists(gpu, c.features, device);
         const auto occupied =
             download<std::uint8_t>(gpu, device.clusters.occupied, c.grid.cluster_count);
-        CullLights cull(gpu, default_tuning(gpu.info), c.features);
+        CullLights cull(gpu, tuning, c.features);
         StageTimer timer;
         do {
             device.coarse =
@@ -179,6 +179,15 @@ TEST(CullLights, ListsOfOccupiedClustersAreThoseOfAllAndOthersAreEmpty) {
     }
     EXPECT_GT(left_out, 1000u);
     EXPECT_GT(kept, 1000u);
+}
+
+TEST(CullLights, ListsOfOccupiedClustersAreThoseOfAllAndOthersAreEmpty) {
+    Tuning tuning = default_tuning(test_gpu().info);
+    for (const int group : {1, 32}) {
+        SCOPED_TRACE(group);
+        tuning.cull_group = group;
+        expect_lists_of_occupied_clusters(tuning);
+    }
 }
 
 std::string lists_of(const Gpu& gpu, const CullCase& c, const Tuning& tuning) {
@@ -303,9 +312,10 @@ TEST(CullLights, ListsAreTheSameForAnyRoomOfTasks) {
     const ClusterGrid grid = make_cluster_grid({16, 9, 8, 0.1f, 100.0f, 0.0f}, 64, 48);
     std::vector<Light> lights;
     std::mt19937 random(3);
-    std::uniform_real_distribution<double> side(-1.0, 1.0), far(0.1, 60.0);
-    for (int i = 0; i < 11000; ++i) {  // six spans
-        const double depth = far(random);
+    std::uniform_real_distribution<double> side(-1.0, 1.0);
+    constexpr int kLights = 11000;  // six spans, from near to far
+    for (int i = 0; i < kLights; ++i) {
+        const double depth = 0.1 + 60.0 * i / kLights;
         lights.push_back(point_light(
             world_from_view(view, {side(random) * depth, side(random) * depth, -depth}), 1.5));
     }
