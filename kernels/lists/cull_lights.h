@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The common part of both forms of cull_lights, which list the lights of every coarse cluster: they
 // count pairs of a light and a cluster, sum up the counts over clusters, and fill in the lights.
-// Lists ascend by light index, and are the same for every form, group size and number of chunks.
+// Lists ascend by light index, and are the same for every form, group size and number of chunks or
+// segments.
 #ifndef KILOLUX_DEVICE_CULL_LIGHTS_H
 #define KILOLUX_DEVICE_CULL_LIGHTS_H
 #include "kernels/device/arguments.h"

@@ -13,8 +13,8 @@
 #include "kernels/lists/cull_lights.h"
 
 // The host defines BLOCK, the lights of a block, SPAN, the blocks of a span, BLOCK_GROUP, the
-// work-items that join a span's extents, and SEGMENTS, the most segments; a multiple of 32. A
-// segment has equally many spans as any other, or one more.
+// work-items that join a span's extents, and SEGMENTS, the largest number of segments, a multiple
+// of 32. Segments have equally many spans, or one more.
 #define SPAN_LIGHTS (BLOCK * SPAN)
 
 // The extent of no light: joined with another one, it is the other one.
@@ -88,8 +88,8 @@ kernel void cull_lights_blocks(LIGHT_ARGS(const),
     if (span == 0u) task_count[0] = 0u;
 }
 
-// ByGroup of cull_lights.h. A task: cluster * segment_count + segment; there are at most
-// cluster_count * segment_count.
+// ByGroup of host/stages/lists/cull_lights.h. A task: cluster * segment_count + segment; there are
+// at most cluster_count * segment_count.
 #define TASK_ARGS(access)                                                                  \
     uint segment_count, global const LightExtent *restrict blocks,                         \
         global const LightExtent *restrict spans, global access uint *restrict task_count, \
@@ -100,8 +100,8 @@ static inline uint2 spans_of_segment(uint light_count, uint segment, uint segmen
     return part_of_chunk(span_count(light_count), segment, segment_count);
 }
 
-// One work-group a cluster. Tasks of a cluster lie beside each other, ascending by segment; which
-// cluster's come first is open.
+// One work-group a cluster. Tasks of a cluster lie beside each other, ascending by segment. The
+// order of clusters may vary.
 kernel void cull_lights_tasks(
     uint light_count, BOX_ARGS(const),
     global const uchar* restrict occupied,  // [cluster_count], or null
@@ -220,7 +220,7 @@ static inline void gather_task(LightBlocks from, BoxedCluster c, uint segment, u
 
 #define BLOCKS_OF_ARGS ((LightBlocks){lights, bounds, extents, blocks, spans, light_count})
 
-// Work-groups share the tasks evenly.
+// Work-groups take equally many tasks.
 kernel void cull_lights_count(LIGHT_ARGS(const), BOX_ARGS(const), TASK_ARGS(const),
                               global uint* restrict task_lights) {  // out [tasks]
     local GroupMemory memory;

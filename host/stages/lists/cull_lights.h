@@ -16,14 +16,14 @@ inline constexpr StageInfo kCullLightsStage = {"cull_lights", StageGroup::lists,
 /// Lists, for each coarse cluster, the lights whose sphere (and cone) touches the cluster's box.
 ///
 /// A stable counting sort: count, prefix sum, fill. by_item: a work-item walks a chunk of lights.
-/// by_group: a work-group takes a cluster and a segment of the lights that can reach it. No light
-/// is ever left out: the lists have as many entries as there are pairs. enqueue() works with the
-/// room of the last frame; when that was too little, fits() grows it and the caller enqueues the
-/// frame's lists again.
+/// by_group: a work-group takes a task, a cluster and a segment of the lights that can reach it. No
+/// light is ever left out: the lists have as many entries as there are pairs. enqueue() works with
+/// the room of the last frame; when that was too little, fits() grows it and the caller enqueues
+/// the frame's lists again.
 class CullLights {
  public:
-    /// most_tasks: by_group, that there is room for where each cluster may have more than one:
-    /// 12 bytes each. Most clusters have few.
+    /// most_tasks: of the form by_group, to reserve, 12 bytes each, but at least one a cluster.
+    /// With fewer, segments are longer.
     CullLights(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
                std::size_t most_tasks = std::size_t{1} << 22);
 
@@ -60,11 +60,10 @@ class CullLights {
     // What work-groups skip by, and their tasks: clusters and segments of lights that reach them.
     struct ByGroup {
         ByGroup(const Gpu& gpu, const KernelProgram& program);
-        Kernel find_blocks, find_tasks;
+        Kernel cull_blocks, cull_tasks;
         GrowingArray<LightExtent> blocks, spans;
         uint segment_count = 0;
-        GrowingArray<uint> task_count, tasks, of_clusters;
-        GrowingArray<uint> lights, starts;  // of each task
+        GrowingArray<uint> task_count, tasks, cluster_tasks, task_lights, task_starts;
 
         void each(auto&& set) const {  // TASK_ARGS of kernels/lists/cull_lights_by_group.cl
             set("segment_count", segment_count);
@@ -80,7 +79,7 @@ class CullLights {
     std::size_t groups_;  // that share the tasks
     int block_group_;     // work-items that join a span's extents
     KernelProgram program_;
-    Kernel count_, offset_, fill_, brute_force_;
+    Kernel count_, starts_, fill_, brute_force_;
     std::optional<ByGroup> by_group_;
     GrowingArray<uint> cursors_;  // by_item
     CountedList lists_;
