@@ -77,9 +77,9 @@ TEST(LightOrder, SpansOfManyLightsAreCompact) {
     }
 }
 
-// The curve goes from each cell to one beside it; a key stands for two cells that follow each
-// other.
-TEST(LightOrder, FollowsACurveWithoutJumps) {
+// Within an octant about the origin the curve goes from each cell to one beside it; a key stands
+// for two cells that follow each other.
+TEST(LightOrder, FollowsACurveWithoutJumpsInAnOctant) {
     struct Cell {
         uint key;
         glm::ivec3 at;
